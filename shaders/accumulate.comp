@@ -1,0 +1,55 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// Pass 2: merges the tracing image into the film, by gathering. A pixel looks at every start pixel
+// whose samples can land in it; it computes their offsets again from the sampler. No two
+// invocations write one texel, and the order is fixed, so the result is the same every time.
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+#include "film.glsl"
+#include "sampling.glsl"
+
+layout(set = 0, binding = 0, rgba32f) readonly uniform image2D batch_image;
+layout(set = 0, binding = 1, rgba32f) uniform image2D film_image;
+
+layout(push_constant, std430) uniform AccumulatePush {
+    Lattice lattice; // the pixels that were traced
+    uint seed;
+    uint first_sample;
+    float jitter; // pixels
+    int reach; // how many pixels a sample can land from its start pixel; 0: at home
+} push;
+
+bool traced(uvec2 pixel) {
+    uvec2 step = pixel - push.lattice.origin;
+    return inside(pixel, push.lattice.extent) && pixel.x >= push.lattice.origin.x
+        && pixel.y >= push.lattice.origin.y && step % push.lattice.stride == uvec2(0u);
+}
+
+void main() {
+    // Samples that stay at home touch the lattice only; samples that stray, the whole film.
+    uvec2 pixel = push.reach == 0 ? lattice_pixel(push.lattice, gl_GlobalInvocationID.xy)
+                                  : gl_GlobalInvocationID.xy;
+    if (!inside(pixel, push.lattice.extent)) {
+        return;
+    }
+    vec4 film = imageLoad(film_image, ivec2(pixel));
+    if (push.reach == 0) {
+        film = merge(film, imageLoad(batch_image, ivec2(pixel)));
+    } else {
+        for (int y = -push.reach; y <= push.reach; ++y) {
+            for (int x = -push.reach; x <= push.reach; ++x) {
+                ivec2 start = ivec2(pixel) + ivec2(x, y);
+                if (start.x < 0 || start.y < 0 || !traced(uvec2(start))) {
+                    continue;
+                }
+                vec4 xi = sample_values(push.seed, uvec2(start), push.first_sample, BLOCK_FILM_AND_LENS);
+                if (landing_step(film_offset(xi.xy, push.jitter)) == -ivec2(x, y)) {
+                    film = merge(film, imageLoad(batch_image, start));
+                }
+            }
+        }
+    }
+    imageStore(film_image, ivec2(pixel), film);
+}

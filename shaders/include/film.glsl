@@ -1,0 +1,35 @@
+// The film: a texel holds the running mean of r, g, b and the count of samples in it.
+
+#ifndef FILM_GLSL
+#define FILM_GLSL
+
+// The pixels that a dispatch covers: origin + stride * invocation, inside extent. A stride above
+// one is the interleaved preview.
+struct Lattice {
+    uvec2 extent;
+    uvec2 origin;
+    uint stride;
+};
+
+uvec2 lattice_pixel(Lattice lattice, uvec2 invocation) {
+    return lattice.origin + lattice.stride * invocation;
+}
+
+bool inside(uvec2 pixel, uvec2 extent) {
+    return pixel.x < extent.x && pixel.y < extent.y;
+}
+
+// Merges the mean of batch.w samples into a mean of film.w samples. At a count of zero the film's
+// colours may hold anything, so they are replaced rather than multiplied by zero.
+vec4 merge(vec4 film, vec4 batch) {
+    float count = film.w + batch.w;
+    vec3 merged = film.rgb + (batch.rgb - film.rgb) * (batch.w / count);
+    return vec4(film.w == 0.0 ? batch.rgb : batch.w == 0.0 ? film.rgb : merged, count);
+}
+
+// By the bits: a driver may assume that there are no infinities and no NaNs.
+bool is_finite(vec3 value) {
+    return all(notEqual(floatBitsToUint(value) & 0x7f800000u, uvec3(0x7f800000u)));
+}
+
+#endif

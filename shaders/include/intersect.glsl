@@ -1,0 +1,122 @@
+// Ray against shape, and ray against scene. Distances are along unit directions, in scene units.
+
+#ifndef INTERSECT_GLSL
+#define INTERSECT_GLSL
+
+#include "camera.glsl"
+#include "scene.glsl"
+
+const float MISS = 1e30;
+
+// A surface point's normal is normalize(curvature * position + normal): a sphere stores its
+// centre negated with curvature 1, flat shapes their normal with curvature 0. So the shape loops
+// keep what they have at hand, and nothing is fetched again by a diverging index.
+struct Hit {
+    float distance;
+    uint shape;
+    vec3 normal;
+    float curvature;
+};
+
+// The quadratic with the discriminant taken from the closest approach, which keeps its digits for
+// small and far spheres: E. Haines et al., Ray Tracing Gems, chapter 7.
+float intersect_sphere(Ray ray, Sphere sphere) {
+    vec3 to_origin = ray.origin - sphere.center;
+    float along = -dot(to_origin, ray.direction);
+    vec3 closest = to_origin + along * ray.direction;
+    float discriminant = sphere.radius * sphere.radius - dot(closest, closest);
+    float half_chord = sqrt(max(discriminant, 0.0));
+    float near = along - half_chord;
+    float far = along + half_chord;
+    float distance = near > 0.0 ? near : far;
+    return discriminant > 0.0 && distance > 0.0 ? distance : MISS;
+}
+
+// Slab test. inverse_direction is finite (see safe_inverse). normal is that of the face met.
+float intersect_box(Ray ray, vec3 inverse_direction, Box box, out vec3 normal) {
+    vec3 to_lower = (box.lower - ray.origin) * inverse_direction;
+    vec3 to_upper = (box.upper - ray.origin) * inverse_direction;
+    vec3 enter = min(to_lower, to_upper);
+    vec3 leave = max(to_lower, to_upper);
+    float near = max(enter.x, max(enter.y, enter.z));
+    float far = min(leave.x, min(leave.y, leave.z));
+    bool outside = near > 0.0;
+    float distance = outside ? near : far;
+    normal = outside ? vec3(equal(enter, vec3(near))) : vec3(equal(leave, vec3(far)));
+    return near <= far && far > 0.0 ? distance : MISS;
+}
+
+// T. Moeller and B. Trumbore, JGT 2(1), 1997, both sides.
+float intersect_triangle(Ray ray, Triangle triangle) {
+    vec3 h = cross(ray.direction, triangle.edge2);
+    float inverse_determinant = 1.0 / dot(triangle.edge1, h);
+    vec3 s = ray.origin - triangle.vertex;
+    float b1 = dot(s, h) * inverse_determinant;
+    vec3 q = cross(s, triangle.edge1);
+    float b2 = dot(ray.direction, q) * inverse_determinant;
+    float distance = dot(triangle.edge2, q) * inverse_determinant;
+    // Written so that a NaN from a ray in the triangle's plane is a miss.
+    return b1 >= 0.0 && b2 >= 0.0 && b1 + b2 <= 1.0 && distance > 0.0 && distance < MISS ? distance : MISS;
+}
+
+float intersect_plane(Ray ray, Plane plane) {
+    float distance = (plane.offset - dot(plane.normal, ray.origin)) / dot(plane.normal, ray.direction);
+    return distance > 0.0 && distance < MISS ? distance : MISS;
+}
+
+// 1 / direction with zero components replaced, so that no slab distance is 0 * infinity.
+vec3 safe_inverse(vec3 direction) {
+    vec3 tiny = mix(vec3(-1e-20), vec3(1e-20), greaterThanEqual(direction, vec3(0.0)));
+    return 1.0 / mix(direction, tiny, lessThan(abs(direction), vec3(1e-20)));
+}
+
+void keep_nearer(inout Hit hit, float distance, uint shape, vec3 normal, float curvature) {
+    if (distance < hit.distance) {
+        hit = Hit(distance, shape, normal, curvature);
+    }
+}
+
+// The nearest hit, or one with distance MISS.
+Hit intersect_scene(Ray ray) {
+    Hit hit = Hit(MISS, 0u, vec3(0.0), 0.0);
+    vec3 inverse_direction = safe_inverse(ray.direction);
+    uint shape = 0u;
+    for (uint i = 0u; i < SPHERE_COUNT; ++i, ++shape) {
+        keep_nearer(hit, intersect_sphere(ray, spheres[i]), shape, -spheres[i].center, 1.0);
+    }
+    for (uint i = 0u; i < BOX_COUNT; ++i, ++shape) {
+        vec3 normal;
+        float distance = intersect_box(ray, inverse_direction, boxes[i], normal);
+        keep_nearer(hit, distance, shape, normal, 0.0);
+    }
+    for (uint i = 0u; i < TRIANGLE_COUNT; ++i, ++shape) {
+        vec3 normal = cross(triangles[i].edge1, triangles[i].edge2);
+        keep_nearer(hit, intersect_triangle(ray, triangles[i]), shape, normal, 0.0);
+    }
+    for (uint i = 0u; i < PLANE_COUNT; ++i, ++shape) {
+        keep_nearer(hit, intersect_plane(ray, planes[i]), shape, planes[i].normal, 0.0);
+    }
+    return hit;
+}
+
+// Whether anything lies on the ray nearer than limit.
+bool occluded(Ray ray, float limit) {
+    float nearest = MISS;
+    vec3 inverse_direction = safe_inverse(ray.direction);
+    for (uint i = 0u; i < SPHERE_COUNT; ++i) {
+        nearest = min(nearest, intersect_sphere(ray, spheres[i]));
+    }
+    for (uint i = 0u; i < BOX_COUNT; ++i) {
+        vec3 normal;
+        nearest = min(nearest, intersect_box(ray, inverse_direction, boxes[i], normal));
+    }
+    for (uint i = 0u; i < TRIANGLE_COUNT; ++i) {
+        nearest = min(nearest, intersect_triangle(ray, triangles[i]));
+    }
+    for (uint i = 0u; i < PLANE_COUNT; ++i) {
+        nearest = min(nearest, intersect_plane(ray, planes[i]));
+    }
+    return nearest < limit;
+}
+
+#endif

@@ -1,0 +1,49 @@
+// One pixel's batch of samples: the body of the trace pass.
+
+#ifndef TRACE_BATCH_GLSL
+#define TRACE_BATCH_GLSL
+
+#include "film.glsl"
+#include "sampling.glsl"
+#include "shading.glsl"
+
+layout(push_constant, std430) uniform TracePush {
+    Camera camera;
+    Lattice lattice;
+    uint seed;
+    uint max_bounces;
+    uint first_sample;
+    uint sample_count;
+} push;
+
+layout(set = 0, binding = 1, std430) buffer Counters {
+    uint rays;
+    uint rejected_samples;
+} counters;
+
+// The mean of the samples first_sample .. first_sample + sample_count of the pixel, and in w how
+// many of them were finite.
+vec4 trace_batch(uvec2 pixel) {
+    vec4 batch = vec4(0.0);
+    uint rays = 0u;
+    uint rejected = 0u;
+    for (uint i = 0u; i < push.sample_count; ++i) {
+        vec4 xi = sample_values(push.seed, pixel, push.first_sample + i, BLOCK_FILM_AND_LENS);
+        vec2 offset = film_offset(xi.xy, push.camera.jitter);
+        vec2 q = view_plane_point(push.camera, push.lattice.extent, pixel, offset);
+        Ray ray = primary_ray(push.camera, q, concentric_disk(xi.zw));
+        vec3 color = radiance(ray, push.max_bounces, rays);
+        if (is_finite(color)) {
+            batch = merge(batch, vec4(color, 1.0));
+        } else {
+            ++rejected;
+        }
+    }
+    atomicAdd(counters.rays, rays);
+    if (rejected > 0u) {
+        atomicAdd(counters.rejected_samples, rejected);
+    }
+    return batch;
+}
+
+#endif

@@ -1,0 +1,166 @@
+//! The command line, as values. Nothing is rendered here.
+
+use crate::error::{Error, Result};
+use crate::scene::{self, BUILTINS, SceneRef};
+use crate::settings::{DEFAULT_SAMPLES, Settings};
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// Samples per pixel that the viewer goes for, unless another number is asked for.
+const DEFAULT_VIEW_SAMPLES: u32 = 256;
+
+/// The command line.
+#[derive(Debug, Parser)]
+#[command(
+    name = "thinlens",
+    version,
+    about = "Renders scenes through a thin lens, so that what lies off the focal plane is blurred",
+    after_help = "Try:\n  \
+        thinlens                                       the viewer, with sliders for the lens\n  \
+        thinlens render -o picture.png                 the default scene to a file\n  \
+        thinlens render -o sharp.png --lens-diameter 0 the same through a pinhole\n  \
+        thinlens render suffern-boxes -o boxes.exr     linear values and sample counts"
+)]
+pub struct Cli {
+    /// Without one, the viewer opens.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Open the viewer (the default); with no display, render to thinlens.png
+    View(ViewArgs),
+    /// Render a picture to a file, without a window
+    Render(RenderArgs),
+    /// List the built-in scenes
+    Scenes,
+    /// List the Vulkan devices that --device can name
+    Devices,
+}
+
+/// `thinlens view`.
+#[derive(Debug, Args, Default)]
+pub struct ViewArgs {
+    #[command(flatten)]
+    settings: SettingsArgs,
+    /// On which device, and whether it is watched.
+    #[command(flatten)]
+    pub device: DeviceArgs,
+}
+
+/// `thinlens render`.
+#[derive(Debug, Args)]
+pub struct RenderArgs {
+    #[command(flatten)]
+    settings: SettingsArgs,
+    /// The picture: .png (8-bit sRGB) or .exr (linear f32 R, G, B, and count: samples per pixel)
+    #[arg(short, long, value_name = "OUT.png|OUT.exr")]
+    pub output: PathBuf,
+    /// Also write figures of the rendering, as JSON
+    #[arg(long, value_name = "FILE.json")]
+    pub stats: Option<PathBuf>,
+    /// On which device, and whether it is watched.
+    #[command(flatten)]
+    pub device: DeviceArgs,
+    /// Say nothing unless something fails
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// Where to render.
+#[derive(Debug, Args, Default)]
+pub struct DeviceArgs {
+    /// Vulkan device, by its index or part of its name (see thinlens devices) [default: the best]
+    #[arg(long, value_name = "INDEX|NAME")]
+    pub device: Option<String>,
+    /// Check every Vulkan call with the Khronos validation layer; any message is a failure
+    #[arg(long)]
+    pub validation: bool,
+}
+
+#[derive(Debug, Args, Default)]
+struct SettingsArgs {
+    /// A built-in scene (see thinlens scenes) or a .toml file [default: version-4]
+    scene: Option<String>,
+    /// Antialiasing points per pixel: more for less noise [default: 64, in the viewer 256]
+    #[arg(short = 'n', long, value_name = "N")]
+    samples: Option<u32>,
+    /// Picture size in pixels [default: the scene's, in the viewer the window's]
+    #[arg(short, long, value_name = "WxH", value_parser = parse_size)]
+    size: Option<[u32; 2]>,
+    /// Diameter of the lens, in scene units: wider blurs more, 0 is a pinhole [default: the scene's]
+    #[arg(long, value_name = "L", allow_negative_numbers = true)]
+    lens_diameter: Option<f32>,
+    /// Distance of the plane in focus, in scene units along the axis [default: the scene's]
+    #[arg(long, value_name = "L", allow_negative_numbers = true)]
+    focal_distance: Option<f32>,
+    /// Width of the square that a pixel's samples fall in: 1 is its own area, 0 one centre ray per
+    /// pixel, more reaches into the neighbours [default: 1]
+    #[arg(long, value_name = "PX", allow_negative_numbers = true)]
+    jitter: Option<f32>,
+    /// How many mirror reflections to follow [default: the scene's]
+    #[arg(long, value_name = "N")]
+    max_bounces: Option<u32>,
+    /// Chooses other random points [default: 0]
+    #[arg(long, value_name = "N")]
+    seed: Option<u32>,
+    /// Brightness in stops: +1 doubles it, -1 halves it [default: 0]
+    #[arg(long, value_name = "STOPS", allow_negative_numbers = true)]
+    exposure: Option<f32>,
+}
+
+impl ViewArgs {
+    /// The settings that the viewer starts with, and the window's size if one was asked for.
+    ///
+    /// # Errors
+    /// Of the scene, or [`Error::OutOfRange`].
+    pub fn settings(&self) -> Result<(Settings, Option<[u32; 2]>)> {
+        Ok((self.settings.resolve(DEFAULT_VIEW_SAMPLES)?, self.settings.size))
+    }
+
+    /// The scene, as it was named.
+    pub fn scene(&self) -> &str {
+        self.settings.scene()
+    }
+}
+
+impl RenderArgs {
+    /// What to render.
+    ///
+    /// # Errors
+    /// Of the scene, or [`Error::OutOfRange`].
+    pub fn settings(&self) -> Result<Settings> {
+        self.settings.resolve(DEFAULT_SAMPLES)
+    }
+}
+
+impl SettingsArgs {
+    fn scene(&self) -> &str {
+        self.scene.as_deref().unwrap_or(BUILTINS[0].name)
+    }
+
+    fn resolve(&self, samples: u32) -> Result<Settings, Error> {
+        let mut settings = Settings::of_scene(SceneRef::new(scene::load(self.scene())?));
+        let estimator = &mut settings.estimator;
+        estimator.size = self.size.unwrap_or(estimator.size);
+        estimator.lens.diameter = self.lens_diameter.unwrap_or(estimator.lens.diameter);
+        estimator.lens.focal_distance = self.focal_distance.unwrap_or(estimator.lens.focal_distance);
+        estimator.jitter = self.jitter.unwrap_or(estimator.jitter);
+        estimator.max_bounces = self.max_bounces.unwrap_or(estimator.max_bounces);
+        estimator.seed = self.seed.unwrap_or(estimator.seed);
+        settings.view.exposure_stops = self.exposure.unwrap_or(settings.view.exposure_stops);
+        settings.samples = self.samples.unwrap_or(samples);
+        settings.check()?;
+        Ok(settings)
+    }
+}
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let parse = || {
+        let (width, height) = text.split_once(['x', 'X'])?;
+        Some([width.parse().ok()?, height.parse().ok()?])
+    };
+    parse().ok_or_else(|| "a size is WIDTHxHEIGHT in pixels, such as 1280x720".into())
+}

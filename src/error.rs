@@ -1,0 +1,113 @@
+//! Everything that can go wrong for a user, each with what to do about it.
+
+use std::path::PathBuf;
+
+/// The crate's result.
+pub type Result<T, E = Error> = std::result::Result<T, E>;
+
+/// What went wrong. The display text is one line that says what to do.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The Vulkan loader is not installed.
+    #[error(
+        "no Vulkan loader found ({0}); install one: ./setup.sh, or your system's package libvulkan1, \
+         vulkan-loader or vulkan-icd-loader"
+    )]
+    NoLoader(String),
+    /// The Khronos validation layer is not installed.
+    #[error(
+        "validation was asked for, but the layer VK_LAYER_KHRONOS_validation is not installed; install \
+         it (./setup.sh, or the package vulkan-validationlayers), or leave out --validation"
+    )]
+    NoValidationLayer,
+    /// No device can run the renderer. Holds why each one was passed over.
+    #[error(
+        "no usable Vulkan 1.3 device ({0}); install a driver for your GPU, or the software device \
+         lavapipe: ./setup.sh, or the package mesa-vulkan-drivers"
+    )]
+    NoDevice(String),
+    /// `--device` names no device.
+    #[error("no device '{wanted}'; there are: {available}")]
+    UnknownDevice {
+        /// As given.
+        wanted: String,
+        /// The devices, as index and name.
+        available: String,
+    },
+    /// A Vulkan call failed.
+    #[error("Vulkan: {what} failed: {result}; try another device (thinlens devices), or update the driver")]
+    Vulkan {
+        /// What was tried.
+        what: &'static str,
+        /// Vulkan's code.
+        result: ash::vk::Result,
+    },
+    /// A picture or scene does not fit on the device.
+    #[error("not enough memory on the device for {what} ({bytes} bytes); try a smaller --size")]
+    DeviceMemory {
+        /// What it was for.
+        what: String,
+        /// Its size.
+        bytes: u64,
+    },
+    /// The window system failed.
+    #[error("window: {0}")]
+    Window(String),
+    /// There is no display.
+    #[error("no display ({0})")]
+    NoDisplay(String),
+    /// SCENE is neither a built-in nor a file.
+    #[error("no scene '{name}'; {hint}")]
+    UnknownScene {
+        /// As given.
+        name: String,
+        /// Near names, or all of them.
+        hint: String,
+    },
+    /// The output's name asks for no known format.
+    #[error("cannot write '{}': its name must end in .png or .exr", .0.display())]
+    UnknownFormat(PathBuf),
+    /// A file cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Read {
+        /// Which file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// A file cannot be written.
+    #[error("cannot write {}: {reason}; check that the folder exists and is writable", path.display())]
+    Write {
+        /// Which file.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
+    /// A scene file is wrong. Lines count from 1.
+    #[error("{file}:{line}: {message}")]
+    Scene {
+        /// File name, or the built-in's name.
+        file: String,
+        /// Line, from 1.
+        line: usize,
+        /// What is wrong there, and what would be right.
+        message: String,
+    },
+    /// A setting is out of its range.
+    #[error("{0}")]
+    OutOfRange(String),
+    /// The validation layer spoke.
+    #[error("the validation layer gave {0} message(s), printed above; please report them as a bug")]
+    Validation(usize),
+}
+
+impl Error {
+    /// The process's exit status: 2 for wrong use, 1 for a failure.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::UnknownScene { .. } | Self::UnknownFormat(_) | Self::OutOfRange(_) | Self::UnknownDevice { .. } => 2,
+            _ => 1,
+        }
+    }
+}

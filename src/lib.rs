@@ -1,0 +1,32 @@
+//! A Vulkan compute ray tracer for thin-lens depth of field.
+//!
+//! The data goes one way:
+//!
+//! ```text
+//! cli / app (flags, sliders) -> Settings -> Scene -> GPU twins -> Renderer
+//!   -> trace.comp -> accumulate.comp -> resolve.comp -> output::file | window
+//! ```
+//!
+//! - [`settings`] has two halves. A change of the [`settings::Estimator`] starts the film anew, a
+//!   change of the [`settings::View`] does not.
+//! - [`scene`] holds plain values and reads them from TOML.
+//! - [`gpu_types`] holds the byte-for-byte twins of the shaders' structs.
+//! - [`passes`] are the three compute passes, each with the shader of its name in `shaders/`.
+//! - [`renderer`] owns film and passes and decides what is traced next.
+//! - [`output`] writes files, [`app`] is the window, [`cli`] the command line.
+//! - [`vulkan`] wraps the driver and is the only unsafe code.
+//!
+//! The optics are those of K. Suffern, *Ray Tracing from the Ground Up*, chapter 10: a centre ray
+//! finds the point in focus, a primary ray from a point of the lens goes through it. See
+//! `shaders/include/camera.glsl`.
+
+pub mod app;
+pub mod cli;
+pub mod error;
+pub mod gpu_types;
+pub mod output;
+pub mod passes;
+pub mod renderer;
+pub mod scene;
+pub mod settings;
+pub mod vulkan;

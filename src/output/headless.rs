@@ -1,0 +1,109 @@
+//! Renders settings to a file.
+
+use super::progress::ProgressDisplay;
+use super::{PictureFormat, Stats, write_exr, write_png};
+use crate::error::{Error, Result};
+use crate::renderer::Renderer;
+use crate::settings::Settings;
+use crate::vulkan::{Device, Instance};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// A picture to render to a file.
+#[derive(Debug, Clone)]
+pub struct Job {
+    /// What to render.
+    pub settings: Settings,
+    /// Where to: `.png` for 8-bit sRGB, `.exr` for linear values and counts.
+    pub output: PathBuf,
+    /// Where to write [`Stats`], if anywhere.
+    pub stats: Option<PathBuf>,
+    /// Which device, by index or part of its name; none for the best.
+    pub device: Option<String>,
+    /// Whether the validation layer watches.
+    pub validation: bool,
+    /// Whether to say nothing unless it fails.
+    pub quiet: bool,
+}
+
+/// Renders, and writes the file.
+///
+/// # Errors
+/// Whatever keeps it from it; [`Error::Validation`] if the layer had something to say.
+pub fn render(job: &Job) -> Result<()> {
+    job.settings.check()?;
+    let format = PictureFormat::of(&job.output).ok_or_else(|| Error::UnknownFormat(job.output.clone()))?;
+    let instance = Instance::new(job.validation, None)?;
+    let rendered = render_on(&instance, job, format);
+    // The layer speaks until the device is gone.
+    match instance.validation_messages().len() {
+        0 => rendered,
+        count => Err(Error::Validation(count)),
+    }
+}
+
+fn render_on(instance: &Arc<Instance>, job: &Job, format: PictureFormat) -> Result<()> {
+    let device = Device::open(instance, job.device.as_deref(), None)?;
+    let size @ [width, height] = job.settings.estimator.size;
+    let mut renderer = Renderer::new(&device)?;
+    renderer.set(&job.settings)?;
+
+    let pixels = u64::from(width) * u64::from(height);
+    let mut display = ProgressDisplay::new(job.settings.samples, pixels, job.quiet);
+    renderer.render(|progress| display.show(progress.samples, progress.traced))?;
+    let seconds = display.finish().as_secs_f64();
+
+    match format {
+        PictureFormat::Png => write_png(&job.output, size, &renderer.read_picture()?)?,
+        PictureFormat::Exr => write_exr(&job.output, size, &renderer.read_film()?)?,
+    }
+    let progress = renderer.progress();
+    let stats = Stats {
+        scene: job.settings.estimator.scene.name.clone(),
+        width,
+        height,
+        samples_per_pixel: progress.samples,
+        samples: progress.traced,
+        rays: progress.rays,
+        rejected_samples: progress.rejected_samples,
+        seconds,
+        msamples_per_second: progress.traced as f64 / seconds / 1e6,
+        device: device.info().name.clone(),
+        driver: device.info().driver.clone(),
+    };
+    if let Some(path) = &job.stats {
+        stats.write(path)?;
+    }
+    if stats.rejected_samples > 0 {
+        eprintln!(
+            "thinlens: {} of {} samples were not finite and are left out; look at the scene for huge values",
+            stats.rejected_samples, stats.samples
+        );
+    }
+    if !job.quiet {
+        println!(
+            "{}: {width}x{height}, {} samples per pixel, {seconds:.2} s, {:.1} M samples/s on {}",
+            job.output.display(),
+            stats.samples_per_pixel,
+            stats.msamples_per_second,
+            stats.device,
+        );
+    }
+    Ok(())
+}
+
+/// Prints the system's devices, a line each.
+///
+/// # Errors
+/// [`Error::NoLoader`], or [`Error::NoDevice`] where there is none.
+pub fn list_devices() -> Result<()> {
+    let devices = Instance::new(false, None)?.devices(None)?;
+    if devices.is_empty() {
+        return Err(Error::NoDevice("no driver is installed".into()));
+    }
+    for device in devices {
+        let fault = device.unusable.map_or_else(String::new, |fault| format!(", cannot be used: {fault}"));
+        println!("{}  {} ({}, {}{fault})", device.index, device.name, device.kind, device.driver);
+    }
+    Ok(())
+}

@@ -1,0 +1,57 @@
+//! How far a rendering is: a bar on a terminal, plain lines elsewhere.
+
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::IsTerminal;
+use std::time::{Duration, Instant};
+
+/// Between plain lines.
+const LINE_EVERY: Duration = Duration::from_secs(5);
+
+/// Shows progress on standard error.
+pub(super) struct ProgressDisplay {
+    bar: Option<ProgressBar>,
+    target: u32,
+    pixels: u64,
+    started: Instant,
+    last_line: Instant,
+    quiet: bool,
+}
+
+impl ProgressDisplay {
+    pub(super) fn new(target: u32, pixels: u64, quiet: bool) -> Self {
+        let bar = (!quiet && std::io::stderr().is_terminal()).then(|| {
+            let style = ProgressStyle::with_template("{bar:32} {pos}/{len} samples per pixel, {msg}, {eta} left")
+                .expect("the template is valid");
+            ProgressBar::new(u64::from(target)).with_style(style)
+        });
+        Self {
+            bar,
+            target,
+            pixels,
+            started: Instant::now(),
+            last_line: Instant::now(),
+            quiet,
+        }
+    }
+
+    pub(super) fn show(&mut self, samples: u32, traced: u64) {
+        let rate = traced as f64 / self.started.elapsed().as_secs_f64();
+        let message = format!("{:.1} M samples/s", rate / 1e6);
+        if let Some(bar) = &self.bar {
+            bar.set_position(u64::from(samples));
+            bar.set_message(message);
+        } else if !self.quiet && self.last_line.elapsed() >= LINE_EVERY {
+            self.last_line = Instant::now();
+            let all = u64::from(self.target) * self.pixels;
+            let left = all.saturating_sub(traced) as f64 / rate;
+            eprintln!("{samples}/{} samples per pixel, {message}, {left:.0} s left", self.target);
+        }
+    }
+
+    pub(super) fn finish(self) -> Duration {
+        if let Some(bar) = self.bar {
+            bar.finish_and_clear();
+        }
+        self.started.elapsed()
+    }
+}

@@ -1,0 +1,45 @@
+//! What `--stats` writes.
+
+use super::write_whole;
+use crate::error::Result;
+use serde::Serialize;
+use std::path::Path;
+
+/// Figures of a finished picture.
+#[derive(Debug, Clone, Serialize)]
+pub struct Stats {
+    /// The scene's name.
+    pub scene: String,
+    /// Pixels.
+    pub width: u32,
+    /// Pixels.
+    pub height: u32,
+    /// Samples traced for each pixel.
+    pub samples_per_pixel: u32,
+    /// Samples traced over all pixels.
+    pub samples: u64,
+    /// Rays traced, shadow rays among them.
+    pub rays: u64,
+    /// Samples that were not finite and so not averaged in.
+    pub rejected_samples: u64,
+    /// Wall-clock time of the rendering, without start-up and file.
+    pub seconds: f64,
+    /// Millions of samples a second of that time.
+    pub msamples_per_second: f64,
+    /// The device's name.
+    pub device: String,
+    /// The driver's name and version.
+    pub driver: String,
+}
+
+impl Stats {
+    /// Writes them as one JSON object.
+    ///
+    /// # Errors
+    /// [`crate::error::Error::Write`].
+    pub fn write(&self, path: &Path) -> Result<()> {
+        let mut json = serde_json::to_string_pretty(self).expect("plain numbers and strings are JSON");
+        json.push('\n');
+        write_whole(path, json.as_bytes())
+    }
+}

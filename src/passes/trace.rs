@@ -1,0 +1,101 @@
+//! Traces a batch of samples for each pixel of a lattice into the tracing image.
+
+use crate::error::Result;
+use crate::gpu_types::{Counters, SceneData, TracePush};
+use crate::vulkan::{Binding, BindingSet, Buffer, ComputePipeline, Device, Image, Recording, Shader, shader};
+use std::sync::Arc;
+
+/// Pass 1. See `shaders/trace.comp`.
+pub struct Trace(ComputePipeline);
+
+/// A scene on the device.
+pub struct SceneBuffers {
+    buffers: [Arc<Buffer>; 8],
+    /// Spheres, boxes, triangles, planes, lights.
+    counts: [u32; 5],
+}
+
+impl SceneBuffers {
+    /// Uploads a scene.
+    ///
+    /// # Errors
+    /// [`crate::error::Error::DeviceMemory`], or what Vulkan says.
+    pub fn new(device: &Arc<Device>, scene: &SceneData) -> Result<Self> {
+        let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
+        Ok(Self {
+            buffers: [
+                Arc::new(Buffer::upload(device, "spheres", &scene.spheres)?),
+                Arc::new(Buffer::upload(device, "boxes", &scene.boxes)?),
+                Arc::new(Buffer::upload(device, "triangles", &scene.triangles)?),
+                Arc::new(Buffer::upload(device, "planes", &scene.planes)?),
+                Arc::new(Buffer::upload(device, "material of shape", &scene.material_of_shape)?),
+                Arc::new(Buffer::upload(device, "materials", &scene.materials)?),
+                Arc::new(Buffer::upload(device, "lights", &scene.lights)?),
+                Arc::new(Buffer::upload(device, "environment", &[scene.environment])?),
+            ],
+            counts: [
+                count(scene.spheres.len()),
+                count(scene.boxes.len()),
+                count(scene.triangles.len()),
+                count(scene.planes.len()),
+                count(scene.lights.len()),
+            ],
+        })
+    }
+
+    /// How many lights it has.
+    pub fn light_count(&self) -> u32 {
+        self.counts[4]
+    }
+
+    /// Its buffers at the bindings of `shaders/include/scene.glsl`, with the image and the counters
+    /// in front: every binding of a shader that traces.
+    pub fn bindings(&self, image: &Arc<Image>, counters: &Arc<Buffer>) -> Vec<(u32, Binding)> {
+        let scene = self.buffers.iter().map(|buffer| Binding::Buffer(Arc::clone(buffer)));
+        let front = [Binding::Image(Arc::clone(image)), Binding::Buffer(Arc::clone(counters))];
+        (0..).zip(front.into_iter().chain(scene)).collect()
+    }
+
+    /// The specialization constants of `shaders/include/scene.glsl`.
+    pub fn constants(&self) -> &[u32] {
+        &self.counts
+    }
+}
+
+impl Trace {
+    /// The shader.
+    pub const SHADER: Shader = shader!("trace");
+
+    /// Compiles the pass for a scene's numbers of things.
+    ///
+    /// # Errors
+    /// What Vulkan says.
+    pub fn new(device: &Arc<Device>, scene: &SceneBuffers) -> Result<Self> {
+        Ok(Self(ComputePipeline::new(device, Self::SHADER, scene.constants())?))
+    }
+
+    /// From `scene` into the tracing image `batch`, counting into `counters`.
+    ///
+    /// # Errors
+    /// What Vulkan says.
+    pub fn bind(&self, scene: &SceneBuffers, batch: &Arc<Image>, counters: &Arc<Buffer>) -> Result<BindingSet> {
+        BindingSet::new(&self.0, &scene.bindings(batch, counters))
+    }
+
+    /// The rows that a workgroup covers: tiles are cut at multiples of it.
+    pub fn row_granularity(&self) -> u32 {
+        self.0.local_size()[1]
+    }
+
+    /// Traces `extent` pixels of the push constants' lattice.
+    pub fn record(&self, recording: &mut Recording<'_>, bindings: &BindingSet, push: &TracePush, extent: [u32; 2]) {
+        recording.dispatch(&self.0, bindings, bytemuck::bytes_of(push), extent);
+    }
+}
+
+impl Counters {
+    /// Reads the counters that the host sees.
+    pub fn read(buffer: &Buffer) -> Self {
+        bytemuck::pod_read_unaligned(&buffer.bytes()[..size_of::<Self>()])
+    }
+}

@@ -1,0 +1,52 @@
+//! The images of one picture size, and what binds them to the passes.
+
+use crate::error::{Error, Result};
+use crate::passes::{Accumulate, Resolve};
+use crate::vulkan::{BindingSet, Device, Image, Recording};
+use std::sync::Arc;
+
+/// The images between the passes.
+pub(super) struct Film {
+    /// The tracing image: the mean of the last batch and its number of samples.
+    pub(super) batch: Arc<Image>,
+    /// The accumulation image: the running mean and count.
+    pub(super) film: Arc<Image>,
+    /// The resolved picture.
+    pub(super) picture: Arc<Image>,
+    pub(super) accumulate: BindingSet,
+    pub(super) resolve: BindingSet,
+    initialized: bool,
+}
+
+impl Film {
+    pub(super) fn new(device: &Arc<Device>, size: [u32; 2], accumulate: &Accumulate, resolve: &Resolve) -> Result<Self> {
+        let most = device.max_extent();
+        if size[0] > most || size[1] > most {
+            let [width, height] = size;
+            return Err(Error::OutOfRange(format!(
+                "size is {width}x{height}, but this device's images go to {most}x{most}"
+            )));
+        }
+        let batch = Arc::new(Image::rgba32f(device, "tracing image", size)?);
+        let film = Arc::new(Image::rgba32f(device, "accumulation image", size)?);
+        let picture = Arc::new(Image::rgba8(device, "picture", size)?);
+        Ok(Self {
+            accumulate: accumulate.bind(&batch, &film)?,
+            resolve: resolve.bind(&film, &picture)?,
+            batch,
+            film,
+            picture,
+            initialized: false,
+        })
+    }
+
+    /// Sets every count to zero.
+    pub(super) fn record_clear(&mut self, recording: &mut Recording<'_>) {
+        if !self.initialized {
+            recording.clear(&self.batch);
+            recording.clear(&self.picture);
+            self.initialized = true;
+        }
+        recording.clear(&self.film);
+    }
+}

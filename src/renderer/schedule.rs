@@ -1,0 +1,182 @@
+//! Which samples of which pixels are traced next. Pure numbers: no device, no time.
+//!
+//! A pass traces some samples of every pixel of a lattice. Passes are cut at fixed sample indices,
+//! so that the same samples are averaged in the same groups however the work is tiled.
+
+use crate::gpu_types::Lattice;
+
+/// Samples a pixel in one pass, once a picture is under way.
+pub const MAX_BATCH: u32 = 16;
+
+/// The order in which the interleaved first sample fills a cell of 4 x 4 pixels. The first four
+/// phases are every second pixel both ways.
+const PHASES_OF_16: [[u32; 2]; 16] = [
+    [2, 2], [0, 0], [2, 0], [0, 2],
+    [1, 1], [3, 3], [3, 1], [1, 3],
+    [1, 0], [3, 2], [3, 0], [1, 2],
+    [0, 1], [2, 3], [2, 1], [0, 3],
+];
+/// Likewise for a cell of 2 x 2.
+const PHASES_OF_4: [[u32; 2]; 4] = [[0, 0], [1, 1], [1, 0], [0, 1]];
+
+/// Samples `first_sample .. first_sample + sample_count` of every pixel of one lattice.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Pass {
+    /// Index of the first sample.
+    pub first_sample: u32,
+    /// How many.
+    pub sample_count: u32,
+    /// Distance between the lattice's pixels.
+    pub stride: u32,
+    /// Which of the `stride * stride` lattices, in their order.
+    pub phase: u32,
+}
+
+impl Pass {
+    /// The batch that starts at `first_sample`, of every pixel: cut at 1, 2, 4, 8, 16, then at
+    /// every `max_batch` samples, and at `target`.
+    pub fn whole(first_sample: u32, target: u32, max_batch: u32) -> Self {
+        let cut = if first_sample < max_batch {
+            (first_sample + 1).next_power_of_two().min(max_batch)
+        } else {
+            (first_sample / max_batch + 1) * max_batch
+        };
+        Self {
+            first_sample,
+            sample_count: cut.min(target) - first_sample,
+            stride: 1,
+            phase: 0,
+        }
+    }
+
+    /// The first sample alone, of the first lattice of this stride (1, 2 or 4).
+    pub fn interleaved(stride: u32) -> Self {
+        Self {
+            first_sample: 0,
+            sample_count: 1,
+            stride,
+            phase: 0,
+        }
+    }
+
+    /// The same samples of the next lattice, if there is one.
+    pub fn next_phase(self) -> Option<Self> {
+        let phase = self.phase + 1;
+        (phase < self.stride * self.stride).then_some(Self { phase, ..self })
+    }
+
+    /// The sample index that the film has reached after this pass, if it is its last phase.
+    pub fn end(self) -> u32 {
+        self.first_sample + self.sample_count
+    }
+
+    /// The stride of a lattice that is filled once this pass is done: what a preview can rely on.
+    pub fn filled_stride(self) -> u32 {
+        match (self.stride, self.phase) {
+            (4, 0..3) => 4,
+            (4, 3..15) => 2,
+            (2, 0..3) => 2,
+            _ => 1,
+        }
+    }
+
+    /// The lattice's pixels, in a picture of this size.
+    pub fn lattice(self, size: [u32; 2]) -> Lattice {
+        let origin = match self.stride {
+            4 => PHASES_OF_16[self.phase as usize],
+            2 => PHASES_OF_4[self.phase as usize],
+            _ => [0, 0],
+        };
+        Lattice {
+            extent: size,
+            origin,
+            stride: self.stride,
+            pad0: 0,
+        }
+    }
+
+    /// How many columns and rows of pixels the lattice has.
+    pub fn lattice_size(self, size: [u32; 2]) -> [u32; 2] {
+        let origin = self.lattice(size).origin;
+        [0, 1].map(|axis| size[axis].saturating_sub(origin[axis]).div_ceil(self.stride))
+    }
+}
+
+/// How far from its start pixel a sample can land, in pixels.
+pub fn reach(jitter: f32) -> u32 {
+    // The range of jitter is small and checked, so the cast is exact.
+    (0.5 * jitter - 0.5).ceil().max(0.0) as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::HashSet;
+
+    /// Catches a batch that straddles a cut: then 64 samples would not equal 32 and 32 more.
+    #[test]
+    fn batches_are_cut_at_fixed_sample_indices() {
+        let cuts = |target, max_batch| {
+            let (mut cuts, mut at) = (Vec::new(), 0);
+            while at < target {
+                at = Pass::whole(at, target, max_batch).end();
+                cuts.push(at);
+            }
+            cuts
+        };
+        assert_eq!(cuts(70, 16), [1, 2, 4, 8, 16, 32, 48, 64, 70]);
+        assert_eq!(cuts(3, 16), [1, 2, 3]);
+        assert_eq!(cuts(9, 4), [1, 2, 4, 8, 9]);
+        assert_eq!(cuts(3, 1), [1, 2, 3]);
+        // From a count that an earlier, lower target left behind.
+        assert_eq!(Pass::whole(20, 64, 16).end(), 32);
+    }
+
+    /// Catches a phase listed twice: one pixel would be sampled twice and another never.
+    #[test]
+    fn phases_cover_every_pixel_once() {
+        for stride in [1, 2, 4] {
+            for size in [[1, 1], [7, 5], [16, 16], [13, 2]] {
+                let mut seen = HashSet::new();
+                let mut next = Some(Pass::interleaved(stride));
+                while let Some(pass) = next {
+                    let (lattice, [columns, rows]) = (pass.lattice(size), pass.lattice_size(size));
+                    for (x, y) in (0..rows).flat_map(|y| (0..columns).map(move |x| (x, y))) {
+                        let pixel = [lattice.origin[0] + stride * x, lattice.origin[1] + stride * y];
+                        assert!(pixel[0] < size[0] && pixel[1] < size[1]);
+                        assert!(seen.insert(pixel), "{pixel:?} twice");
+                    }
+                    next = pass.next_phase();
+                }
+                assert_eq!(seen.len(), (size[0] * size[1]) as usize);
+            }
+        }
+    }
+
+    /// Catches a preview that looks for a lattice before it is filled, and shows black.
+    #[test]
+    fn a_filled_stride_is_filled() {
+        for stride in [2, 4] {
+            let mut seen = HashSet::new();
+            let mut next = Some(Pass::interleaved(stride));
+            while let Some(pass) = next {
+                seen.insert(pass.lattice([8, 8]).origin);
+                let filled = pass.filled_stride();
+                let site = if filled == 4 { 2 } else { 0 };
+                for (x, y) in (0..stride).flat_map(|y| (0..stride).map(move |x| (x, y))) {
+                    let cell = |at: u32| (at / filled * filled + site) % stride;
+                    assert!(filled == 1 || seen.contains(&[cell(x), cell(y)]), "{pass:?}");
+                }
+                next = pass.next_phase();
+            }
+        }
+    }
+
+    /// Catches a reach that is one short: samples would vanish between pixels.
+    #[test]
+    fn reach_covers_the_jitter() {
+        for (jitter, expected) in [(0.0, 0), (1.0, 0), (1.01, 1), (2.0, 1), (3.0, 1), (3.1, 2), (15.0, 7)] {
+            assert_eq!(reach(jitter), expected, "jitter {jitter}");
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! What was counted and measured on the device.
+
+use crate::error::Result;
+use crate::gpu_types::Counters;
+use crate::vulkan::{Buffer, Device, FRAMES_IN_FLIGHT, Recording, Residence, Timer};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// Assumed until a submission was measured: slow enough for a software device.
+const UNMEASURED_NANOSECONDS: f64 = 50.0;
+
+/// How far a picture is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Progress {
+    /// Samples per pixel in the film, from whole passes.
+    pub samples: u32,
+    /// Samples traced for this picture, over all pixels.
+    pub traced: u64,
+    /// Rays traced for them, shadow rays among them.
+    pub rays: u64,
+    /// Samples that were not finite, and so not averaged in.
+    pub rejected_samples: u64,
+    /// How long the device worked on them.
+    pub device_time: Duration,
+}
+
+/// Counters and clocks of the frames in flight, and their sums.
+pub(super) struct Tally {
+    frames: Vec<Frame>,
+    sum: Progress,
+    nanoseconds_per_sample: Option<f64>,
+    /// Told apart by number, so that frames in flight do not count for a later picture.
+    picture: u64,
+}
+
+struct Frame {
+    timer: Timer,
+    counters: Buffer,
+    /// Picture and pixel samples of the submission under way.
+    pending: Option<(u64, u64)>,
+}
+
+impl Tally {
+    pub(super) fn new(device: &Arc<Device>) -> Result<Self> {
+        let frame = || {
+            Ok(Frame {
+                timer: Timer::new(device)?,
+                counters: Buffer::new(device, "counters read-back", size_of::<Counters>() as u64, Residence::Host)?,
+                pending: None,
+            })
+        };
+        Ok(Self {
+            frames: (0..FRAMES_IN_FLIGHT).map(|_| frame()).collect::<Result<_>>()?,
+            sum: Progress::default(),
+            nanoseconds_per_sample: None,
+            picture: 0,
+        })
+    }
+
+    pub(super) fn restart(&mut self) {
+        self.sum = Progress::default();
+        self.picture += 1;
+    }
+
+    /// Another scene: what was measured says nothing of it.
+    pub(super) fn forget_rate(&mut self) {
+        self.nanoseconds_per_sample = None;
+    }
+
+    /// How many samples the device can trace in this time, by the last measurement.
+    pub(super) fn pixel_samples_within(&self, budget: Duration) -> u64 {
+        let each = self.nanoseconds_per_sample.unwrap_or(UNMEASURED_NANOSECONDS);
+        (budget.as_nanos() as f64 / each) as u64
+    }
+
+    pub(super) fn start(&self, recording: &mut Recording<'_>, frame: usize) {
+        recording.start(&self.frames[frame].timer);
+    }
+
+    pub(super) fn stop(&mut self, recording: &mut Recording<'_>, frame: usize, traced: u64, counters: &Buffer) {
+        let frame = &mut self.frames[frame];
+        recording.stop(&frame.timer);
+        recording.barrier();
+        recording.copy_buffer(counters, &frame.counters, size_of::<Counters>() as u64);
+        frame.pending = Some((self.picture, traced));
+    }
+
+    pub(super) fn collect(&mut self, frame: usize) -> Result<()> {
+        let frame = &mut self.frames[frame];
+        let Some((picture, traced)) = frame.pending.take() else {
+            return Ok(());
+        };
+        let elapsed = frame.timer.elapsed()?;
+        if let Some(elapsed) = elapsed
+            && traced > 0
+        {
+            self.nanoseconds_per_sample = Some((elapsed.as_nanos() as f64 / traced as f64).max(1e-3));
+        }
+        if picture == self.picture {
+            let counters = Counters::read(&frame.counters);
+            self.sum.traced += traced;
+            self.sum.rays += u64::from(counters.rays);
+            self.sum.rejected_samples += u64::from(counters.rejected_samples);
+            self.sum.device_time += elapsed.unwrap_or_default();
+        }
+        Ok(())
+    }
+
+    pub(super) fn progress(&self, samples: u32) -> Progress {
+        Progress { samples, ..self.sum }
+    }
+}

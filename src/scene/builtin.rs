@@ -1,0 +1,31 @@
+//! The scenes that come with the program.
+
+/// A scene compiled in, in the format that users write.
+#[derive(Debug, Clone, Copy)]
+pub struct Builtin {
+    /// What it is called on the command line.
+    pub name: &'static str,
+    /// One line about it.
+    pub about: &'static str,
+    /// The file.
+    pub toml: &'static str,
+}
+
+/// All of them; the first is the default.
+pub const BUILTINS: [Builtin; 3] = [
+    Builtin {
+        name: "version-4",
+        about: "ten objects on a checkered ground, from near to far along a diagonal",
+        toml: include_str!("builtin/version-4.toml"),
+    },
+    Builtin {
+        name: "suffern-boxes",
+        about: "three checkered boxes, the middle one in focus (Suffern, figures 10.9 to 10.11)",
+        toml: include_str!("builtin/suffern-boxes.toml"),
+    },
+    Builtin {
+        name: "suffern-mirror",
+        about: "a mirror box, whose images have their own depth (Suffern, figure 10.12)",
+        toml: include_str!("builtin/suffern-mirror.toml"),
+    },
+];

@@ -1,0 +1,81 @@
+//! The camera and its thin lens.
+
+use glam::{DMat3, DVec3, Vec3};
+
+/// Where the picture is taken from. Lengths are in scene units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    /// The lens centre.
+    pub eye: Vec3,
+    /// A point on the optical axis.
+    pub look_at: Vec3,
+    /// Roughly upwards; not along the axis.
+    pub up: Vec3,
+    /// The angle from the picture's lower to its upper edge, seen from the eye.
+    pub vfov_radians: f64,
+}
+
+/// The thin lens: Suffern, chapter 10. Lengths are in scene units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lens {
+    /// Diameter; 0 is a pinhole.
+    pub diameter: f32,
+    /// Distance of the focal plane along the optical axis.
+    pub focal_distance: f32,
+}
+
+/// The camera's right-handed orthonormal frame: u right, v up, and the view along -w.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    /// Columns u, v, w in world coordinates.
+    pub world_from_camera: DMat3,
+}
+
+impl Camera {
+    /// The camera's frame.
+    pub fn frame(&self) -> Frame {
+        let w = (self.eye - self.look_at).as_dvec3().normalize();
+        let u = self.up.as_dvec3().cross(w).normalize();
+        Frame {
+            world_from_camera: DMat3::from_cols(u, w.cross(u), w),
+        }
+    }
+
+    /// `k`: the distance of the view plane in pixels, for a picture of this height.
+    pub fn view_distance_pixels(&self, height: u32) -> f64 {
+        0.5 * f64::from(height) / (0.5 * self.vfov_radians).tan()
+    }
+
+    /// Why no frame can be made of it, if so.
+    pub(super) fn fault(&self) -> Option<&'static str> {
+        let axis = (self.eye - self.look_at).as_dvec3();
+        if axis.length_squared() == 0.0 {
+            return Some("eye and look_at are the same point");
+        }
+        let across = self.up.as_dvec3().cross(axis.normalize()).length();
+        (across <= 1e-9 * self.up.as_dvec3().length() || self.up == Vec3::ZERO)
+            .then_some("up points along the line of sight; choose another direction for it")
+    }
+}
+
+impl Frame {
+    /// The depth of a point along the optical axis, in front of the eye.
+    pub fn axial_depth(&self, eye: Vec3, point: Vec3) -> f64 {
+        -self.w().dot((point - eye).as_dvec3())
+    }
+
+    /// Right.
+    pub fn u(&self) -> DVec3 {
+        self.world_from_camera.x_axis
+    }
+
+    /// Up.
+    pub fn v(&self) -> DVec3 {
+        self.world_from_camera.y_axis
+    }
+
+    /// Backwards.
+    pub fn w(&self) -> DVec3 {
+        self.world_from_camera.z_axis
+    }
+}

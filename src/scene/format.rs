@@ -1,0 +1,424 @@
+//! The scene file's tables. A table's name says what the thing is: `[[sphere]]`, `[matte.NAME]`,
+//! `[[directional]]`. Unknown keys are errors.
+
+use super::file::Fault;
+use super::number::{Count, Extent, NonNegative, Positive, Rgb, Vector, VfovDegrees};
+use super::{
+    Aabb, Background, Camera, Checker, Lens, Light, LightKind, Material, Plane, Scene, Shaded,
+    Sphere, Triangle,
+};
+use glam::Vec3;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use toml::Spanned;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SceneFile {
+    #[serde(default = "default_size")]
+    size: [Extent; 2],
+    #[serde(default = "default_max_bounces")]
+    max_bounces: Count,
+    camera: Spanned<CameraTable>,
+    #[serde(default)]
+    background: Option<Spanned<BackgroundTable>>,
+    #[serde(default)]
+    ambient: Option<LightColor>,
+    #[serde(default)]
+    point: Vec<PointTable>,
+    #[serde(default)]
+    directional: Vec<DirectionalTable>,
+    #[serde(default)]
+    matte: Named<MatteTable>,
+    #[serde(default)]
+    phong: Named<PhongTable>,
+    #[serde(default)]
+    mirror: Named<MirrorTable>,
+    #[serde(default)]
+    emissive: Named<LightColor>,
+    #[serde(default)]
+    sphere: Vec<SphereTable>,
+    #[serde(default, rename = "box")]
+    boxes: Vec<BoxTable>,
+    #[serde(default)]
+    triangle: Vec<TriangleTable>,
+    #[serde(default)]
+    plane: Vec<PlaneTable>,
+}
+
+type Named<T> = BTreeMap<Spanned<String>, T>;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CameraTable {
+    eye: Vector,
+    look_at: Vector,
+    #[serde(default = "upwards")]
+    up: Vector,
+    vfov_degrees: Option<VfovDegrees>,
+    view_distance: Option<Positive>,
+    pixel_size: Option<Positive>,
+    lens_diameter: NonNegative,
+    focal_distance: Positive,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BackgroundTable {
+    color: Option<Rgb>,
+    horizon: Option<Rgb>,
+    zenith: Option<Rgb>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LightColor {
+    #[serde(default = "white")]
+    color: Rgb,
+    radiance: NonNegative,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PointTable {
+    position: Vector,
+    #[serde(default = "white")]
+    color: Rgb,
+    radiance: NonNegative,
+    #[serde(default = "yes")]
+    shadows: bool,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DirectionalTable {
+    direction: Spanned<Vector>,
+    #[serde(default = "white")]
+    color: Rgb,
+    radiance: NonNegative,
+    #[serde(default = "yes")]
+    shadows: bool,
+}
+
+/// One colour, `[r, g, b]`, or a checker of two, `{ even, odd, size }`.
+#[derive(Deserialize)]
+#[serde(from = "ColorInput")]
+struct Color(Vec3, Option<Checker>);
+
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "a color is [r, g, b] or { even = [r, g, b], odd = [r, g, b], size = EDGE }")]
+enum ColorInput {
+    Plain(Rgb),
+    Checker(CheckerTable),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CheckerTable {
+    even: Rgb,
+    odd: Rgb,
+    size: Positive,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MatteTable {
+    color: Color,
+    ka: NonNegative,
+    kd: NonNegative,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PhongTable {
+    color: Color,
+    ka: NonNegative,
+    kd: NonNegative,
+    ks: NonNegative,
+    exponent: NonNegative,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MirrorTable {
+    color: Rgb,
+    kr: NonNegative,
+    #[serde(default)]
+    ks: NonNegative,
+    #[serde(default)]
+    exponent: NonNegative,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SphereTable {
+    center: Vector,
+    radius: Positive,
+    material: Spanned<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BoxTable {
+    lower: Vector,
+    upper: Spanned<Vector>,
+    material: Spanned<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TriangleTable {
+    vertices: Spanned<[Vector; 3]>,
+    material: Spanned<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PlaneTable {
+    point: Vector,
+    normal: Spanned<Vector>,
+    material: Spanned<String>,
+}
+
+fn default_size() -> [Extent; 2] {
+    [Extent(1280), Extent(720)]
+}
+
+fn default_max_bounces() -> Count {
+    Count(5)
+}
+
+fn upwards() -> Vector {
+    Vector(Vec3::Y)
+}
+
+fn white() -> Rgb {
+    Rgb(Vec3::ONE)
+}
+
+fn yes() -> bool {
+    true
+}
+
+impl From<ColorInput> for Color {
+    fn from(input: ColorInput) -> Self {
+        match input {
+            ColorInput::Plain(color) => Self(color.0, None),
+            ColorInput::Checker(checker) => Self(
+                checker.even.0,
+                Some(Checker {
+                    size: checker.size.0,
+                    odd_color: checker.odd.0,
+                }),
+            ),
+        }
+    }
+}
+
+impl LightColor {
+    fn radiance(&self) -> Vec3 {
+        self.color.0 * self.radiance.0
+    }
+}
+
+impl SceneFile {
+    pub(super) fn into_scene(mut self, name: &str) -> Result<Scene, Fault> {
+        let size = [self.size[0].0, self.size[1].0];
+        let (camera, lens) = camera(&self.camera, size)?;
+        let background = background(self.background.as_ref())?;
+        let ambient = self.ambient.as_ref().map_or(Vec3::ZERO, LightColor::radiance);
+        let lights = self.lights()?;
+        let (index, materials) = self.materials()?;
+        let find = |name: &Spanned<String>| find_material(&index, name);
+
+        let mut scene = Scene {
+            name: name.to_owned(),
+            camera,
+            lens,
+            size,
+            max_bounces: self.max_bounces.0,
+            background,
+            ambient,
+            lights,
+            materials,
+            spheres: Vec::new(),
+            boxes: Vec::new(),
+            triangles: Vec::new(),
+            planes: Vec::new(),
+        };
+        for table in &self.sphere {
+            let shape = Sphere {
+                center: table.center.0,
+                radius: table.radius.0,
+            };
+            let material = find(&table.material)?;
+            scene.spheres.push(Shaded { shape, material });
+        }
+        for table in &self.boxes {
+            let shape = Aabb {
+                lower: table.lower.0,
+                upper: table.upper.get_ref().0,
+            };
+            if !shape.lower.cmplt(shape.upper).all() {
+                return Err(fault(&table.upper, "upper must be greater than lower on every axis"));
+            }
+            let material = find(&table.material)?;
+            scene.boxes.push(Shaded { shape, material });
+        }
+        for table in &self.triangle {
+            let vertices = [0, 1, 2].map(|corner| table.vertices.get_ref()[corner].0);
+            let [a, b, c] = vertices;
+            if (b - a).cross(c - a) == Vec3::ZERO {
+                return Err(fault(&table.vertices, "the three vertices lie on one line"));
+            }
+            let material = find(&table.material)?;
+            scene.triangles.push(Shaded { shape: Triangle { vertices }, material });
+        }
+        for table in &self.plane {
+            let shape = Plane {
+                point: table.point.0,
+                normal: nonzero(&table.normal)?,
+            };
+            let material = find(&table.material)?;
+            scene.planes.push(Shaded { shape, material });
+        }
+        Ok(scene)
+    }
+
+    fn lights(&self) -> Result<Vec<Light>, Fault> {
+        let mut lights = Vec::new();
+        for table in &self.point {
+            lights.push(Light {
+                kind: LightKind::Point(table.position.0),
+                radiance: table.color.0 * table.radiance.0,
+                shadows: table.shadows,
+            });
+        }
+        for table in &self.directional {
+            lights.push(Light {
+                kind: LightKind::Directional(nonzero(&table.direction)?),
+                radiance: table.color.0 * table.radiance.0,
+                shadows: table.shadows,
+            });
+        }
+        Ok(lights)
+    }
+
+    /// The materials, and the index of each by its name.
+    fn materials(&mut self) -> Result<(BTreeMap<String, u32>, Vec<Material>), Fault> {
+        let matte = std::mem::take(&mut self.matte).into_iter().map(|(name, table)| {
+            let material = Material {
+                color: table.color.0,
+                checker: table.color.1,
+                ka: table.ka.0,
+                kd: table.kd.0,
+                ..Material::default()
+            };
+            (name, material)
+        });
+        let phong = std::mem::take(&mut self.phong).into_iter().map(|(name, table)| {
+            let material = Material {
+                color: table.color.0,
+                checker: table.color.1,
+                ka: table.ka.0,
+                kd: table.kd.0,
+                ks: table.ks.0,
+                exponent: table.exponent.0,
+                ..Material::default()
+            };
+            (name, material)
+        });
+        let mirror = std::mem::take(&mut self.mirror).into_iter().map(|(name, table)| {
+            let material = Material {
+                reflectance: table.color.0 * table.kr.0,
+                ks: table.ks.0,
+                exponent: table.exponent.0,
+                ..Material::default()
+            };
+            (name, material)
+        });
+        let emissive = std::mem::take(&mut self.emissive).into_iter().map(|(name, table)| {
+            let material = Material {
+                emission: table.radiance(),
+                ..Material::default()
+            };
+            (name, material)
+        });
+
+        let mut index = BTreeMap::new();
+        let mut materials = Vec::new();
+        for (name, material) in matte.chain(phong).chain(mirror).chain(emissive) {
+            let number = u32::try_from(materials.len()).unwrap_or(u32::MAX);
+            if index.insert(name.get_ref().clone(), number).is_some() {
+                let message = format!("there is another material called '{}'", name.get_ref());
+                return Err(fault(&name, &message));
+            }
+            materials.push(material);
+        }
+        Ok((index, materials))
+    }
+}
+
+fn camera(table: &Spanned<CameraTable>, size: [u32; 2]) -> Result<(Camera, Lens), Fault> {
+    let span = table;
+    let table = table.get_ref();
+    let vfov_radians = match (&table.vfov_degrees, &table.view_distance, &table.pixel_size) {
+        (Some(degrees), None, None) => degrees.0.to_radians(),
+        (None, Some(distance), Some(pixel)) => {
+            let half_height = 0.5 * f64::from(size[1]) * f64::from(pixel.0);
+            2.0 * (half_height / f64::from(distance.0)).atan()
+        }
+        _ => {
+            let message = "the camera needs either vfov_degrees, or view_distance and pixel_size";
+            return Err(fault(span, message));
+        }
+    };
+    let camera = Camera {
+        eye: table.eye.0,
+        look_at: table.look_at.0,
+        up: table.up.0,
+        vfov_radians,
+    };
+    if let Some(message) = camera.fault() {
+        return Err(fault(span, message));
+    }
+    let lens = Lens {
+        diameter: table.lens_diameter.0,
+        focal_distance: table.focal_distance.0,
+    };
+    Ok((camera, lens))
+}
+
+fn background(table: Option<&Spanned<BackgroundTable>>) -> Result<Background, Fault> {
+    let Some(span) = table else {
+        return Ok(Background { horizon: Vec3::ZERO, zenith: Vec3::ZERO });
+    };
+    let table = span.get_ref();
+    match (&table.color, &table.horizon, &table.zenith) {
+        (Some(color), None, None) => Ok(Background { horizon: color.0, zenith: color.0 }),
+        (None, Some(horizon), Some(zenith)) => Ok(Background { horizon: horizon.0, zenith: zenith.0 }),
+        _ => Err(fault(span, "the background needs either color, or horizon and zenith")),
+    }
+}
+
+fn find_material(index: &BTreeMap<String, u32>, name: &Spanned<String>) -> Result<u32, Fault> {
+    index.get(name.get_ref()).copied().ok_or_else(|| {
+        let known: Vec<&str> = index.keys().map(String::as_str).collect();
+        let message = format!("no material '{}'; there are: {}", name.get_ref(), known.join(", "));
+        fault(name, &message)
+    })
+}
+
+fn nonzero(vector: &Spanned<Vector>) -> Result<Vec3, Fault> {
+    match vector.get_ref().0 {
+        Vec3::ZERO => Err(fault(vector, "this vector must not be zero")),
+        other => Ok(other),
+    }
+}
+
+fn fault<T>(at: &Spanned<T>, message: &str) -> Fault {
+    Fault {
+        span: at.span(),
+        message: message.to_owned(),
+    }
+}

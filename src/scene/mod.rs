@@ -1,0 +1,81 @@
+//! What is rendered, as plain values. Nothing here knows of a GPU.
+
+mod builtin;
+mod camera;
+mod file;
+mod format;
+mod light;
+mod material;
+mod number;
+mod shape;
+
+pub use builtin::{Builtin, BUILTINS};
+pub use camera::{Camera, Frame, Lens};
+pub use file::load;
+pub use light::{Background, Light, LightKind};
+pub use material::{Checker, Material};
+pub use shape::{Aabb, Plane, Shaded, Sphere, Triangle};
+
+use glam::Vec3;
+use std::sync::Arc;
+
+/// The largest width and height of a picture, in pixels.
+pub const MAX_EXTENT: u32 = 16384;
+/// The largest number of reflections that can be followed.
+pub const MAX_BOUNCES: u32 = 64;
+
+/// A scene: shapes, materials, lights, and the camera and picture size it was composed for.
+#[derive(Debug)]
+pub struct Scene {
+    /// The built-in's name, or the file's.
+    pub name: String,
+    /// Where the picture is taken from.
+    pub camera: Camera,
+    /// Through what.
+    pub lens: Lens,
+    /// The picture's size in pixels, unless another is asked for.
+    pub size: [u32; 2],
+    /// How many reflections are followed, unless another number is asked for.
+    pub max_bounces: u32,
+    /// What is seen where nothing is hit.
+    pub background: Background,
+    /// Radiance of the ambient light.
+    pub ambient: Vec3,
+    /// Point and directional lights.
+    pub lights: Vec<Light>,
+    /// Materials, which shapes name by index.
+    pub materials: Vec<Material>,
+    /// Spheres.
+    pub spheres: Vec<Shaded<Sphere>>,
+    /// Axis-aligned boxes.
+    pub boxes: Vec<Shaded<Aabb>>,
+    /// Triangles.
+    pub triangles: Vec<Shaded<Triangle>>,
+    /// Infinite planes.
+    pub planes: Vec<Shaded<Plane>>,
+}
+
+/// A loaded scene, shared. Two are equal when they are the same loading, whatever they hold.
+#[derive(Debug, Clone)]
+pub struct SceneRef(Arc<Scene>);
+
+impl SceneRef {
+    /// Shares a scene.
+    pub fn new(scene: Scene) -> Self {
+        Self(Arc::new(scene))
+    }
+}
+
+impl PartialEq for SceneRef {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl std::ops::Deref for SceneRef {
+    type Target = Scene;
+
+    fn deref(&self) -> &Scene {
+        &self.0
+    }
+}

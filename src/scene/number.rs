@@ -1,0 +1,113 @@
+//! Numbers of the scene file, checked as they are read, so that an error names their line.
+
+use super::{MAX_BOUNCES, MAX_EXTENT};
+use glam::Vec3;
+use serde::Deserialize;
+
+/// A length that divides others: at least this, so that its inverse stays finite in f32.
+const SMALLEST_POSITIVE: f64 = 1e-6;
+/// Beyond this, squares leave f32.
+const LARGEST: f64 = 1e12;
+
+#[derive(Deserialize)]
+#[serde(try_from = "f64")]
+pub(super) struct Positive(pub(super) f32);
+
+#[derive(Deserialize, Default)]
+#[serde(try_from = "f64")]
+pub(super) struct NonNegative(pub(super) f32);
+
+#[derive(Deserialize)]
+#[serde(try_from = "f64")]
+pub(super) struct VfovDegrees(pub(super) f64);
+
+#[derive(Deserialize)]
+#[serde(try_from = "[f64; 3]")]
+pub(super) struct Vector(pub(super) Vec3);
+
+#[derive(Deserialize)]
+#[serde(try_from = "[NonNegative; 3]")]
+pub(super) struct Rgb(pub(super) Vec3);
+
+#[derive(Deserialize)]
+#[serde(try_from = "i64")]
+pub(super) struct Extent(pub(super) u32);
+
+#[derive(Deserialize)]
+#[serde(try_from = "i64")]
+pub(super) struct Count(pub(super) u32);
+
+impl TryFrom<f64> for Positive {
+    type Error = String;
+
+    fn try_from(value: f64) -> Result<Self, String> {
+        if (SMALLEST_POSITIVE..=LARGEST).contains(&value) {
+            Ok(Self(value as f32))
+        } else {
+            Err(format!("{value} must be from {SMALLEST_POSITIVE:e} to {LARGEST:e}"))
+        }
+    }
+}
+
+impl TryFrom<f64> for NonNegative {
+    type Error = String;
+
+    fn try_from(value: f64) -> Result<Self, String> {
+        if (0.0..=LARGEST).contains(&value) {
+            Ok(Self(value as f32))
+        } else {
+            Err(format!("{value} must be from 0 to {LARGEST:e}"))
+        }
+    }
+}
+
+impl TryFrom<f64> for VfovDegrees {
+    type Error = String;
+
+    fn try_from(value: f64) -> Result<Self, String> {
+        if (0.01..=175.0).contains(&value) {
+            Ok(Self(value))
+        } else {
+            Err(format!("a vertical field of view of {value} degrees must be from 0.01 to 175"))
+        }
+    }
+}
+
+impl TryFrom<[f64; 3]> for Vector {
+    type Error = String;
+
+    fn try_from(value: [f64; 3]) -> Result<Self, String> {
+        match value.iter().find(|value| !(-LARGEST..=LARGEST).contains(*value)) {
+            None => Ok(Self(Vec3::from_array(value.map(|value| value as f32)))),
+            Some(value) => Err(format!("{value} must be from -{LARGEST:e} to {LARGEST:e}")),
+        }
+    }
+}
+
+impl From<[NonNegative; 3]> for Rgb {
+    fn from(value: [NonNegative; 3]) -> Self {
+        Self(Vec3::from_array(value.map(|value| value.0)))
+    }
+}
+
+impl TryFrom<i64> for Extent {
+    type Error = String;
+
+    fn try_from(value: i64) -> Result<Self, String> {
+        match u32::try_from(value) {
+            Ok(value @ 1..=MAX_EXTENT) => Ok(Self(value)),
+            _ => Err(format!("{value} pixels must be from 1 to {MAX_EXTENT}")),
+        }
+    }
+}
+
+impl TryFrom<i64> for Count {
+    type Error = String;
+
+    fn try_from(value: i64) -> Result<Self, String> {
+        match u32::try_from(value) {
+            Ok(value @ 0..=MAX_BOUNCES) => Ok(Self(value)),
+            _ => Err(format!("{value} bounces must be from 0 to {MAX_BOUNCES}")),
+        }
+    }
+}

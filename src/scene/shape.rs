@@ -1,0 +1,46 @@
+//! Shapes, in world coordinates and scene units.
+
+use glam::Vec3;
+
+/// A shape with the index of its material.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shaded<T> {
+    /// The shape.
+    pub shape: T,
+    /// Index into [`super::Scene::materials`].
+    pub material: u32,
+}
+
+/// A sphere.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sphere {
+    /// Its centre.
+    pub center: Vec3,
+    /// Greater than zero.
+    pub radius: f32,
+}
+
+/// An axis-aligned box, `lower < upper` on every axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Aabb {
+    /// The corner with the smallest coordinates.
+    pub lower: Vec3,
+    /// The corner with the largest coordinates.
+    pub upper: Vec3,
+}
+
+/// A triangle, seen from both sides.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Triangle {
+    /// Its corners.
+    pub vertices: [Vec3; 3],
+}
+
+/// An infinite plane, seen from both sides.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plane {
+    /// Any point on it.
+    pub point: Vec3,
+    /// Across it, of any length but zero.
+    pub normal: Vec3,
+}

@@ -1,0 +1,110 @@
+//! Everything a user can set, in the two halves that decide when the film starts anew.
+
+use crate::error::{Error, Result};
+use crate::scene::{Camera, Lens, MAX_BOUNCES, MAX_EXTENT, SceneRef};
+
+/// The film's count is held in f32, which is exact up to here.
+pub const MAX_SAMPLES: u32 = 1 << 24;
+/// The widest jitter, in pixels. Accumulation looks at `ceil(jitter / 2 - 1 / 2)` pixels around.
+pub const MAX_JITTER: f32 = 15.0;
+/// The smallest focal distance, in scene units, so that its inverse stays finite.
+pub const MIN_FOCAL_DISTANCE: f32 = 1e-6;
+/// The largest length, in scene units.
+pub const MAX_LENGTH: f32 = 1e12;
+/// The strongest exposure either way, in stops.
+pub const MAX_EXPOSURE_STOPS: f32 = 20.0;
+/// Samples per pixel of a headless picture, unless another number is asked for.
+pub const DEFAULT_SAMPLES: u32 = 64;
+/// Jitter in pixels across: a sample stays within its pixel.
+pub const DEFAULT_JITTER: f32 = 1.0;
+
+/// What is rendered, how it is shown, and how far.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// A change here starts the film anew.
+    pub estimator: Estimator,
+    /// A change here does not.
+    pub view: View,
+    /// The number of samples per pixel to reach.
+    pub samples: u32,
+}
+
+/// Whatever changes the integral that a pixel estimates.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Estimator {
+    /// Shapes, materials, lights.
+    pub scene: SceneRef,
+    /// Where the picture is taken from.
+    pub camera: Camera,
+    /// Through what.
+    pub lens: Lens,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Width of the square around a pixel's centre that its samples fall in, in pixels.
+    pub jitter: f32,
+    /// How many reflections are followed.
+    pub max_bounces: u32,
+    /// Chooses the sample values.
+    pub seed: u32,
+}
+
+/// Whatever changes only how the film is shown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct View {
+    /// Brightness, in stops: the picture is multiplied by two to this power.
+    pub exposure_stops: f32,
+}
+
+impl Settings {
+    /// The settings that a scene was composed for.
+    pub fn of_scene(scene: SceneRef) -> Self {
+        Self {
+            estimator: Estimator {
+                camera: scene.camera,
+                lens: scene.lens,
+                size: scene.size,
+                max_bounces: scene.max_bounces,
+                jitter: DEFAULT_JITTER,
+                seed: 0,
+                scene,
+            },
+            view: View {
+                exposure_stops: 0.0,
+            },
+            samples: DEFAULT_SAMPLES,
+        }
+    }
+
+    /// Holds every number against its range.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`], naming the option, the value and the range.
+    pub fn check(&self) -> Result<()> {
+        let Estimator {
+            lens,
+            size,
+            jitter,
+            max_bounces,
+            ..
+        } = &self.estimator;
+        in_range("size: width", size[0], 1, MAX_EXTENT)?;
+        in_range("size: height", size[1], 1, MAX_EXTENT)?;
+        in_range("lens-diameter", lens.diameter, 0.0, MAX_LENGTH)?;
+        in_range("focal-distance", lens.focal_distance, MIN_FOCAL_DISTANCE, MAX_LENGTH)?;
+        in_range("jitter", *jitter, 0.0, MAX_JITTER)?;
+        in_range("max-bounces", *max_bounces, 0, MAX_BOUNCES)?;
+        in_range("samples", self.samples, 1, MAX_SAMPLES)?;
+        let stops = MAX_EXPOSURE_STOPS;
+        in_range("exposure", self.view.exposure_stops, -stops, stops)
+    }
+}
+
+/// NaN is in no range.
+fn in_range<T: PartialOrd + std::fmt::Display>(name: &str, value: T, low: T, high: T) -> Result<()> {
+    if value >= low && value <= high {
+        return Ok(());
+    }
+    Err(Error::OutOfRange(format!(
+        "{name} is {value}, but must be from {low} to {high}"
+    )))
+}

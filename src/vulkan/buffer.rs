@@ -1,0 +1,136 @@
+//! Storage buffers.
+
+use super::{Commands, Device, check};
+use crate::error::{Error, Result};
+use ash::vk;
+use gpu_allocator::MemoryLocation;
+use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
+use std::sync::Arc;
+
+/// Where a buffer lives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Residence {
+    /// On the device; the host cannot see it.
+    Device,
+    /// Where the host can read and write it.
+    Host,
+}
+
+/// A storage buffer with its memory.
+pub struct Buffer {
+    pub(super) raw: vk::Buffer,
+    size: u64,
+    allocation: Option<Allocation>,
+    device: Arc<Device>,
+}
+
+impl Buffer {
+    /// A buffer of at least `size` bytes, its contents undefined.
+    ///
+    /// # Errors
+    /// [`Error::DeviceMemory`], or what Vulkan says.
+    pub fn new(device: &Arc<Device>, name: &str, size: u64, residence: Residence) -> Result<Self> {
+        let size = size.max(16); // Vulkan has no empty buffers, and a scene may have no triangles.
+        let info = vk::BufferCreateInfo::default().size(size).usage(
+            vk::BufferUsageFlags::STORAGE_BUFFER
+                | vk::BufferUsageFlags::TRANSFER_SRC
+                | vk::BufferUsageFlags::TRANSFER_DST,
+        );
+        // SAFETY: the device is valid; the handle goes into its guard before anything else.
+        let raw = check("creating a buffer", unsafe { device.raw.create_buffer(&info, None) })?;
+        let mut buffer = Self {
+            raw,
+            size,
+            allocation: None,
+            device: Arc::clone(device),
+        };
+        // SAFETY: raw is a buffer of this device.
+        let requirements = unsafe { device.raw.get_buffer_memory_requirements(raw) };
+        let location = match residence {
+            Residence::Device => MemoryLocation::GpuOnly,
+            Residence::Host => MemoryLocation::GpuToCpu,
+        };
+        let allocation = allocate(device, name, requirements, location, true)?;
+        // SAFETY: the memory was allocated for this buffer's requirements and is bound once.
+        let bound = unsafe { device.raw.bind_buffer_memory(raw, allocation.memory(), allocation.offset()) };
+        buffer.allocation = Some(allocation);
+        check("binding a buffer's memory", bound)?;
+        device.set_name(raw, name);
+        Ok(buffer)
+    }
+
+    /// A buffer on the device that holds `data`.
+    ///
+    /// # Errors
+    /// [`Error::DeviceMemory`], or what Vulkan says.
+    pub fn upload<T: bytemuck::NoUninit>(device: &Arc<Device>, name: &str, data: &[T]) -> Result<Self> {
+        let bytes: &[u8] = bytemuck::cast_slice(data);
+        let buffer = Self::new(device, name, bytes.len() as u64, Residence::Device)?;
+        if !bytes.is_empty() {
+            let mut staging = Self::new(device, "staging", bytes.len() as u64, Residence::Host)?;
+            staging.write(bytes);
+            let mut commands = Commands::new(device)?;
+            let mut recording = commands.begin()?;
+            recording.copy_buffer(&staging, &buffer, bytes.len() as u64);
+            recording.submit()?;
+            commands.wait()?;
+        }
+        Ok(buffer)
+    }
+
+    /// Writes the start of a buffer that the host sees and the device is not using.
+    pub fn write(&mut self, bytes: &[u8]) {
+        let mapped = self.allocation.as_mut().and_then(Allocation::mapped_slice_mut);
+        mapped.expect("a host buffer is mapped")[..bytes.len()].copy_from_slice(bytes);
+    }
+
+    /// What the host sees of a buffer that the device is not writing.
+    pub fn bytes(&self) -> &[u8] {
+        let mapped = self.allocation.as_ref().and_then(Allocation::mapped_slice);
+        mapped.expect("a host buffer is mapped")
+    }
+
+    /// Its size in bytes.
+    pub fn size(&self) -> u64 {
+        self.size
+    }
+}
+
+impl Drop for Buffer {
+    fn drop(&mut self) {
+        // SAFETY: whoever records commands with the buffer holds it until they are done.
+        unsafe { self.device.raw.destroy_buffer(self.raw, None) };
+        release(&self.device, self.allocation.take());
+    }
+}
+
+pub(super) fn allocate(
+    device: &Device,
+    name: &str,
+    requirements: vk::MemoryRequirements,
+    location: MemoryLocation,
+    linear: bool,
+) -> Result<Allocation> {
+    let description = AllocationCreateDesc {
+        name,
+        requirements,
+        location,
+        linear,
+        allocation_scheme: AllocationScheme::GpuAllocatorManaged,
+    };
+    device.allocator().allocate(&description).map_err(|error| {
+        log::debug!("allocating {name}: {error}");
+        Error::DeviceMemory {
+            what: name.to_owned(),
+            bytes: requirements.size,
+        }
+    })
+}
+
+pub(super) fn release(device: &Device, allocation: Option<Allocation>) {
+    if let Some(allocation) = allocation
+        && let Err(error) = device.allocator().free(allocation)
+    {
+        log::error!("freeing device memory: {error}");
+    }
+}

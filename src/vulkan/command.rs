@@ -1,0 +1,282 @@
+//! Recording and submitting commands.
+
+use super::image::WHOLE;
+use super::{BindingSet, Buffer, ComputePipeline, Device, Image, Timer, check};
+use crate::error::Result;
+use ash::vk;
+use std::ffi::CString;
+use std::sync::Arc;
+
+/// A command buffer that is recorded, submitted, waited for, and recorded again.
+pub struct Commands {
+    pool: vk::CommandPool,
+    buffer: vk::CommandBuffer,
+    fence: vk::Fence,
+    device: Arc<Device>,
+}
+
+/// Commands being recorded. They run once [`Recording::submit`] is called.
+pub struct Recording<'a> {
+    commands: &'a mut Commands,
+}
+
+impl Commands {
+    /// An idle command buffer.
+    ///
+    /// # Errors
+    /// What Vulkan says.
+    pub fn new(device: &Arc<Device>) -> Result<Self> {
+        let mut commands = Self {
+            pool: vk::CommandPool::null(),
+            buffer: vk::CommandBuffer::null(),
+            fence: vk::Fence::null(),
+            device: Arc::clone(device),
+        };
+        let pool = vk::CommandPoolCreateInfo::default()
+            .flags(vk::CommandPoolCreateFlags::RESET_COMMAND_BUFFER)
+            .queue_family_index(device.queue_family);
+        let fence = vk::FenceCreateInfo::default().flags(vk::FenceCreateFlags::SIGNALED);
+        // SAFETY: the device is valid; each handle is in its guard before the next call.
+        unsafe {
+            commands.pool = check("creating a command pool", device.raw.create_command_pool(&pool, None))?;
+            commands.fence = check("creating a fence", device.raw.create_fence(&fence, None))?;
+            let buffer = vk::CommandBufferAllocateInfo::default()
+                .command_pool(commands.pool)
+                .level(vk::CommandBufferLevel::PRIMARY)
+                .command_buffer_count(1);
+            let buffers = device.raw.allocate_command_buffers(&buffer);
+            commands.buffer = check("allocating a command buffer", buffers)?[0];
+        }
+        Ok(commands)
+    }
+
+    /// Waits until what was submitted last is done.
+    ///
+    /// # Errors
+    /// What Vulkan says: a lost device.
+    pub fn wait(&self) -> Result<()> {
+        // SAFETY: the fence is of this device.
+        let result = unsafe { self.device.raw.wait_for_fences(&[self.fence], true, u64::MAX) };
+        check("waiting for the device", result)
+    }
+
+    /// Waits, then starts recording anew.
+    ///
+    /// # Errors
+    /// What Vulkan says.
+    pub fn begin(&mut self) -> Result<Recording<'_>> {
+        self.wait()?;
+        let info = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+        // SAFETY: the buffer is not in use, and beginning it resets it.
+        let result = unsafe { self.device.raw.begin_command_buffer(self.buffer, &info) };
+        check("beginning a command buffer", result)?;
+        Ok(Recording { commands: self })
+    }
+}
+
+impl Drop for Commands {
+    fn drop(&mut self) {
+        // SAFETY: the last submission is waited for; null handles are allowed.
+        unsafe {
+            if self.fence != vk::Fence::null() {
+                let _ = self.device.raw.wait_for_fences(&[self.fence], true, u64::MAX);
+            }
+            self.device.raw.destroy_fence(self.fence, None);
+            self.device.raw.destroy_command_pool(self.pool, None);
+        }
+    }
+}
+
+impl Recording<'_> {
+    /// What is recorded into, for imgui's renderer.
+    pub fn raw(&self) -> vk::CommandBuffer {
+        self.commands.buffer
+    }
+
+    /// The pool it came from, for imgui's renderer.
+    pub fn raw_pool(&self) -> vk::CommandPool {
+        self.commands.pool
+    }
+
+    pub(super) fn device(&self) -> &Device {
+        &self.commands.device
+    }
+
+    /// Runs `pipeline` for `extent` invocations, rounded up to whole workgroups.
+    pub fn dispatch(&mut self, pipeline: &ComputePipeline, bindings: &BindingSet, push: &[u8], extent: [u32; 2]) {
+        let device = self.device();
+        let buffer = self.raw();
+        let groups = pipeline.workgroups(extent);
+        self.begin_label(pipeline.name());
+        // SAFETY: recording is under way; the set was made for this pipeline's layout; push covers
+        // the pipeline's range, which `push_constants` asserts.
+        unsafe {
+            device.raw.cmd_bind_pipeline(buffer, vk::PipelineBindPoint::COMPUTE, pipeline.raw);
+            device.raw.cmd_bind_descriptor_sets(
+                buffer,
+                vk::PipelineBindPoint::COMPUTE,
+                pipeline.layout,
+                0,
+                &[bindings.raw],
+                &[],
+            );
+            pipeline.assert_push_size(push);
+            device.raw.cmd_push_constants(buffer, pipeline.layout, vk::ShaderStageFlags::COMPUTE, 0, push);
+            device.raw.cmd_dispatch(buffer, groups[0], groups[1], 1);
+        }
+        self.end_label();
+    }
+
+    /// The boundary between two passes: everything that compute and transfer commands did before is
+    /// seen by those after it, and by the host once the fence is passed.
+    pub fn barrier(&mut self) {
+        let stages = vk::PipelineStageFlags2::COMPUTE_SHADER | vk::PipelineStageFlags2::ALL_TRANSFER;
+        let writes = vk::AccessFlags2::SHADER_STORAGE_WRITE | vk::AccessFlags2::TRANSFER_WRITE;
+        let reads = vk::AccessFlags2::SHADER_STORAGE_READ | vk::AccessFlags2::TRANSFER_READ;
+        let barrier = [vk::MemoryBarrier2::default()
+            .src_stage_mask(stages)
+            .src_access_mask(writes)
+            .dst_stage_mask(stages | vk::PipelineStageFlags2::HOST)
+            .dst_access_mask(reads | writes | vk::AccessFlags2::HOST_READ)];
+        self.depend(&vk::DependencyInfo::default().memory_barriers(&barrier));
+    }
+
+    /// Sets every value of an image to zero, whatever its layout was, and leaves it in GENERAL.
+    pub fn clear(&mut self, image: &Image) {
+        let stages = vk::PipelineStageFlags2::COMPUTE_SHADER | vk::PipelineStageFlags2::ALL_TRANSFER;
+        let barrier = [vk::ImageMemoryBarrier2::default()
+            .image(image.raw)
+            .subresource_range(WHOLE)
+            .old_layout(vk::ImageLayout::UNDEFINED)
+            .new_layout(vk::ImageLayout::GENERAL)
+            .src_stage_mask(stages)
+            .src_access_mask(vk::AccessFlags2::SHADER_STORAGE_WRITE | vk::AccessFlags2::TRANSFER_WRITE)
+            .dst_stage_mask(vk::PipelineStageFlags2::ALL_TRANSFER)
+            .dst_access_mask(vk::AccessFlags2::TRANSFER_WRITE)];
+        self.depend(&vk::DependencyInfo::default().image_memory_barriers(&barrier));
+        // SAFETY: recording is under way, and the barrier above gave the image this layout.
+        unsafe {
+            self.device().raw.cmd_clear_color_image(
+                self.raw(),
+                image.raw,
+                vk::ImageLayout::GENERAL,
+                &vk::ClearColorValue { float32: [0.0; 4] },
+                &[WHOLE],
+            );
+        }
+        self.barrier();
+    }
+
+    /// Sets a whole buffer to zero.
+    pub fn clear_buffer(&mut self, buffer: &Buffer) {
+        // SAFETY: recording is under way; the buffer's size is a multiple of four or ends with it.
+        unsafe { self.device().raw.cmd_fill_buffer(self.raw(), buffer.raw, 0, vk::WHOLE_SIZE, 0) };
+        self.barrier();
+    }
+
+    /// Copies the first `size` bytes.
+    pub fn copy_buffer(&mut self, from: &Buffer, to: &Buffer, size: u64) {
+        let region = [vk::BufferCopy::default().size(size)];
+        // SAFETY: recording is under way; callers give a size within both buffers.
+        unsafe { self.device().raw.cmd_copy_buffer(self.raw(), from.raw, to.raw, &region) };
+        self.barrier();
+    }
+
+    /// Copies an image's pixels to the start of a buffer, row by row without padding.
+    pub fn copy_image(&mut self, from: &Image, to: &Buffer) {
+        let [width, height] = from.extent();
+        let region = [vk::BufferImageCopy::default()
+            .image_subresource(LAYER)
+            .image_extent(vk::Extent3D { width, height, depth: 1 })];
+        // SAFETY: recording is under way, the image is in GENERAL, and callers give a buffer of at
+        // least `from.byte_len()` bytes.
+        unsafe {
+            self.device().raw.cmd_copy_image_to_buffer(
+                self.raw(),
+                from.raw,
+                vk::ImageLayout::GENERAL,
+                to.raw,
+                &region,
+            );
+        }
+        self.barrier();
+    }
+
+    /// Starts a timer.
+    pub fn start(&mut self, timer: &Timer) {
+        if self.device().timestamp_period > 0.0 {
+            // SAFETY: recording is under way and the pool has two queries.
+            unsafe {
+                self.device().raw.cmd_reset_query_pool(self.raw(), timer.pool, 0, 2);
+                let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
+                self.device().raw.cmd_write_timestamp2(self.raw(), stage, timer.pool, 0);
+            }
+        }
+    }
+
+    /// Stops a timer, after all commands recorded so far.
+    pub fn stop(&mut self, timer: &Timer) {
+        if self.device().timestamp_period > 0.0 {
+            let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
+            // SAFETY: recording is under way and the query was reset by `start`.
+            unsafe { self.device().raw.cmd_write_timestamp2(self.raw(), stage, timer.pool, 1) };
+        }
+    }
+
+    /// Ends the recording and hands it to the device.
+    ///
+    /// # Errors
+    /// What Vulkan says.
+    pub fn submit(self) -> Result<()> {
+        self.submit_between(&[], &[])
+    }
+
+    /// Likewise, after and before the given semaphores.
+    pub(super) fn submit_between(
+        self,
+        wait: &[vk::SemaphoreSubmitInfo<'_>],
+        signal: &[vk::SemaphoreSubmitInfo<'_>],
+    ) -> Result<()> {
+        let device = &self.commands.device;
+        let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(self.raw())];
+        let submit = [vk::SubmitInfo2::default()
+            .command_buffer_infos(&buffers)
+            .wait_semaphore_infos(wait)
+            .signal_semaphore_infos(signal)];
+        // SAFETY: the recording ends here; the fence is passed, as `begin` waited for it, and is
+        // reset only when a submission that signals it follows at once.
+        unsafe {
+            check("ending a command buffer", device.raw.end_command_buffer(self.raw()))?;
+            check("resetting a fence", device.raw.reset_fences(&[self.commands.fence]))?;
+            let result = device.raw.queue_submit2(device.queue, &submit, self.commands.fence);
+            check("submitting commands", result)
+        }
+    }
+
+    pub(super) fn depend(&mut self, dependency: &vk::DependencyInfo<'_>) {
+        // SAFETY: recording is under way; the dependency names live images.
+        unsafe { self.device().raw.cmd_pipeline_barrier2(self.raw(), dependency) };
+    }
+
+    fn begin_label(&self, name: &str) {
+        if let (Some(debug), Ok(name)) = (&self.device().debug, CString::new(name)) {
+            let label = vk::DebugUtilsLabelEXT::default().label_name(&name);
+            // SAFETY: recording is under way.
+            unsafe { debug.cmd_begin_debug_utils_label(self.raw(), &label) };
+        }
+    }
+
+    fn end_label(&self) {
+        if let Some(debug) = &self.device().debug {
+            // SAFETY: recording is under way, and a label was begun.
+            unsafe { debug.cmd_end_debug_utils_label(self.raw()) };
+        }
+    }
+}
+
+pub(super) const LAYER: vk::ImageSubresourceLayers = vk::ImageSubresourceLayers {
+    aspect_mask: vk::ImageAspectFlags::COLOR,
+    mip_level: 0,
+    base_array_layer: 0,
+    layer_count: 1,
+};

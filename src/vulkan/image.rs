@@ -1,0 +1,117 @@
+//! Storage images, which stay in the layout GENERAL.
+
+use super::buffer::{allocate, release};
+use super::{Device, check};
+use crate::error::Result;
+use ash::vk;
+use gpu_allocator::MemoryLocation;
+use gpu_allocator::vulkan::Allocation;
+use std::sync::Arc;
+
+pub(super) const WHOLE: vk::ImageSubresourceRange = vk::ImageSubresourceRange {
+    aspect_mask: vk::ImageAspectFlags::COLOR,
+    base_mip_level: 0,
+    level_count: 1,
+    base_array_layer: 0,
+    layer_count: 1,
+};
+
+/// A two-dimensional storage image with its memory and view. Before its first use it must be
+/// cleared with [`super::Recording::clear`], which also gives it its layout.
+pub struct Image {
+    pub(super) raw: vk::Image,
+    pub(super) view: vk::ImageView,
+    extent: [u32; 2],
+    bytes_per_pixel: u64,
+    allocation: Option<Allocation>,
+    device: Arc<Device>,
+}
+
+impl Image {
+    /// Four f32 a pixel.
+    ///
+    /// # Errors
+    /// [`crate::error::Error::DeviceMemory`], or what Vulkan says.
+    pub fn rgba32f(device: &Arc<Device>, name: &str, extent: [u32; 2]) -> Result<Self> {
+        Self::new(device, name, extent, vk::Format::R32G32B32A32_SFLOAT, 16)
+    }
+
+    /// Four bytes a pixel, without an encoding of their own.
+    ///
+    /// # Errors
+    /// [`crate::error::Error::DeviceMemory`], or what Vulkan says.
+    pub fn rgba8(device: &Arc<Device>, name: &str, extent: [u32; 2]) -> Result<Self> {
+        Self::new(device, name, extent, vk::Format::R8G8B8A8_UNORM, 4)
+    }
+
+    fn new(
+        device: &Arc<Device>,
+        name: &str,
+        extent: [u32; 2],
+        format: vk::Format,
+        bytes_per_pixel: u64,
+    ) -> Result<Self> {
+        let [width, height] = extent;
+        let info = vk::ImageCreateInfo::default()
+            .image_type(vk::ImageType::TYPE_2D)
+            .format(format)
+            .extent(vk::Extent3D { width, height, depth: 1 })
+            .mip_levels(1)
+            .array_layers(1)
+            .samples(vk::SampleCountFlags::TYPE_1)
+            .tiling(vk::ImageTiling::OPTIMAL)
+            .usage(
+                vk::ImageUsageFlags::STORAGE
+                    | vk::ImageUsageFlags::TRANSFER_SRC
+                    | vk::ImageUsageFlags::TRANSFER_DST,
+            );
+        // SAFETY: the device is valid; the handle goes into its guard before anything else.
+        let raw = check("creating an image", unsafe { device.raw.create_image(&info, None) })?;
+        let mut image = Self {
+            raw,
+            view: vk::ImageView::null(),
+            extent,
+            bytes_per_pixel,
+            allocation: None,
+            device: Arc::clone(device),
+        };
+        // SAFETY: raw is an image of this device.
+        let requirements = unsafe { device.raw.get_image_memory_requirements(raw) };
+        let allocation = allocate(device, name, requirements, MemoryLocation::GpuOnly, false)?;
+        // SAFETY: the memory was allocated for this image's requirements and is bound once.
+        let bound = unsafe { device.raw.bind_image_memory(raw, allocation.memory(), allocation.offset()) };
+        image.allocation = Some(allocation);
+        check("binding an image's memory", bound)?;
+        let info = vk::ImageViewCreateInfo::default()
+            .image(raw)
+            .view_type(vk::ImageViewType::TYPE_2D)
+            .format(format)
+            .subresource_range(WHOLE);
+        // SAFETY: the image is bound and has this format.
+        image.view = check("creating an image view", unsafe { device.raw.create_image_view(&info, None) })?;
+        device.set_name(raw, name);
+        Ok(image)
+    }
+
+    /// Width and height in pixels.
+    pub fn extent(&self) -> [u32; 2] {
+        self.extent
+    }
+
+    /// How many bytes its pixels take in a buffer, without padding.
+    pub fn byte_len(&self) -> u64 {
+        u64::from(self.extent[0]) * u64::from(self.extent[1]) * self.bytes_per_pixel
+    }
+}
+
+impl Drop for Image {
+    fn drop(&mut self) {
+        // SAFETY: whoever records commands with the image holds it until they are done; a null
+        // view is allowed.
+        unsafe {
+            self.device.raw.destroy_image_view(self.view, None);
+            self.device.raw.destroy_image(self.raw, None);
+        }
+        release(&self.device, self.allocation.take());
+    }
+}

@@ -1,0 +1,36 @@
+//! Vulkan through `ash`: the only unsafe code of the crate, and no knowledge of scenes.
+//!
+//! Ownership goes from child to parent by `Arc` (`Instance <- Device <- Buffer, Image, ...`), so a
+//! handle is never destroyed after what it came from. Every call into the driver goes through
+//! [`check`], which says what was tried.
+#![allow(unsafe_code, reason = "this module wraps the driver's C interface")]
+
+mod buffer;
+mod command;
+mod device;
+mod image;
+mod instance;
+mod pipeline;
+mod reflection;
+mod swapchain;
+mod timing;
+mod validation;
+
+pub use buffer::{Buffer, Residence};
+pub use command::{Commands, Recording};
+pub use device::{Device, DeviceInfo};
+pub use image::Image;
+pub use instance::Instance;
+pub use pipeline::{Binding, BindingSet, ComputePipeline, Shader};
+pub(crate) use pipeline::shader;
+pub use reflection::{ResourceKind, ShaderInterface, StructLayout};
+pub use swapchain::{Acquired, AcquiredImage, FRAMES_IN_FLIGHT, Surface, Swapchain};
+pub use timing::Timer;
+
+use crate::error::{Error, Result};
+use ash::vk;
+
+/// Names what failed.
+fn check<T>(what: &'static str, result: Result<T, vk::Result>) -> Result<T> {
+    result.map_err(|result| Error::Vulkan { what, result })
+}

@@ -1,0 +1,343 @@
+//! The window's surface and swapchain.
+
+use super::command::LAYER;
+use super::image::WHOLE;
+use super::{Device, Image, Instance, Recording, check};
+use crate::error::{Error, Result};
+use ash::{khr, vk};
+use std::sync::Arc;
+use winit::raw_window_handle::{RawDisplayHandle, RawWindowHandle};
+
+/// A window, as Vulkan sees it.
+pub struct Surface {
+    raw: vk::SurfaceKHR,
+    loader: khr::surface::Instance,
+    _instance: Arc<Instance>,
+}
+
+/// The images that the window shows, and the semaphores around them.
+pub struct Swapchain {
+    raw: vk::SwapchainKHR,
+    loader: khr::swapchain::Device,
+    images: Vec<vk::Image>,
+    views: Vec<vk::ImageView>,
+    /// Signalled when an image may be presented, one an image.
+    rendered: Vec<vk::Semaphore>,
+    /// Signalled when an image was acquired, one a frame in flight.
+    acquired: [vk::Semaphore; FRAMES_IN_FLIGHT],
+    next_acquire: usize,
+    extent: [u32; 2],
+    format: vk::Format,
+    surface: Arc<Surface>,
+    device: Arc<Device>,
+}
+
+/// How many frames the host may be ahead of the device.
+pub const FRAMES_IN_FLIGHT: usize = 2;
+
+/// What asking for the next image gave. A stale swapchain is an outcome, not an error.
+pub enum Acquired {
+    /// An image to draw to.
+    Image(AcquiredImage),
+    /// The window has changed: make another swapchain.
+    Stale,
+}
+
+/// An image of the swapchain, to be presented.
+pub struct AcquiredImage {
+    index: u32,
+    acquired: vk::Semaphore,
+}
+
+impl Surface {
+    /// The surface of a window, which must outlive it.
+    ///
+    /// # Errors
+    /// What Vulkan says.
+    pub fn new(instance: &Arc<Instance>, display: RawDisplayHandle, window: RawWindowHandle) -> Result<Arc<Self>> {
+        // SAFETY: the handles are those of a live window, which the caller drops after the surface.
+        let raw = unsafe { ash_window::create_surface(&instance.entry, &instance.raw, display, window, None) };
+        Ok(Arc::new(Self {
+            raw: check("creating the window's surface", raw)?,
+            loader: khr::surface::Instance::new(&instance.entry, &instance.raw),
+            _instance: Arc::clone(instance),
+        }))
+    }
+
+    pub(super) fn presents(&self, device: vk::PhysicalDevice, family: u32) -> Result<bool> {
+        // SAFETY: device, family and surface belong to one instance.
+        let supported = unsafe { self.loader.get_physical_device_surface_support(device, family, self.raw) };
+        check("asking whether a device can present", supported)
+    }
+}
+
+impl Drop for Surface {
+    fn drop(&mut self) {
+        // SAFETY: swapchains hold an Arc of their surface, so none is left.
+        unsafe { self.loader.destroy_surface(self.raw, None) };
+    }
+}
+
+impl Swapchain {
+    /// A swapchain for a window of `size` pixels. None while the window has no area, as when it is
+    /// minimised.
+    ///
+    /// # Errors
+    /// What Vulkan says, or [`Error::Window`] where the window takes no 8-bit picture.
+    pub fn new(device: &Arc<Device>, surface: &Arc<Surface>, size: [u32; 2]) -> Result<Option<Self>> {
+        // SAFETY: the device was chosen for this surface.
+        let (capabilities, formats) = unsafe {
+            let loader = &surface.loader;
+            (
+                loader.get_physical_device_surface_capabilities(device.physical, surface.raw),
+                loader.get_physical_device_surface_formats(device.physical, surface.raw),
+            )
+        };
+        let capabilities = check("asking what the window takes", capabilities)?;
+        let formats = check("asking which formats the window takes", formats)?;
+        let extent = extent(&capabilities, size);
+        if extent.contains(&0) {
+            return Ok(None);
+        }
+        // The resolve pass encodes sRGB itself, so the format must not do it again.
+        let format = formats.iter().find(|format| {
+            [vk::Format::B8G8R8A8_UNORM, vk::Format::R8G8B8A8_UNORM].contains(&format.format)
+        });
+        let Some(format) = format else {
+            return Err(Error::Window("it takes no 8-bit pictures".into()));
+        };
+        let most = if capabilities.max_image_count == 0 { u32::MAX } else { capabilities.max_image_count };
+        let info = vk::SwapchainCreateInfoKHR::default()
+            .surface(surface.raw)
+            .min_image_count((capabilities.min_image_count + 1).min(most))
+            .image_format(format.format)
+            .image_color_space(format.color_space)
+            .image_extent(vk::Extent2D { width: extent[0], height: extent[1] })
+            .image_array_layers(1)
+            .image_usage(vk::ImageUsageFlags::TRANSFER_DST | vk::ImageUsageFlags::COLOR_ATTACHMENT)
+            .image_sharing_mode(vk::SharingMode::EXCLUSIVE)
+            .pre_transform(capabilities.current_transform)
+            .composite_alpha(composite_alpha(&capabilities))
+            .present_mode(vk::PresentModeKHR::FIFO)
+            .clipped(true);
+        let loader = khr::swapchain::Device::new(&device.instance.raw, &device.raw);
+        // SAFETY: info follows the surface's capabilities; the handle goes into its guard.
+        let raw = check("creating the swapchain", unsafe { loader.create_swapchain(&info, None) })?;
+        let mut swapchain = Self {
+            raw,
+            loader,
+            images: Vec::new(),
+            views: Vec::new(),
+            rendered: Vec::new(),
+            acquired: [vk::Semaphore::null(); FRAMES_IN_FLIGHT],
+            next_acquire: 0,
+            extent,
+            format: format.format,
+            surface: Arc::clone(surface),
+            device: Arc::clone(device),
+        };
+        swapchain.create_parts()?;
+        Ok(Some(swapchain))
+    }
+
+    fn create_parts(&mut self) -> Result<()> {
+        let semaphore = vk::SemaphoreCreateInfo::default();
+        let device = Arc::clone(&self.device);
+        // SAFETY: the swapchain is valid; each handle goes into its guard as it is made.
+        unsafe {
+            self.images = check("listing the swapchain's images", self.loader.get_swapchain_images(self.raw))?;
+            for image in &self.images {
+                let info = vk::ImageViewCreateInfo::default()
+                    .image(*image)
+                    .view_type(vk::ImageViewType::TYPE_2D)
+                    .format(self.format)
+                    .subresource_range(WHOLE);
+                self.views.push(check("creating an image view", device.raw.create_image_view(&info, None))?);
+                let rendered = device.raw.create_semaphore(&semaphore, None);
+                self.rendered.push(check("creating a semaphore", rendered)?);
+            }
+            for acquired in &mut self.acquired {
+                *acquired = check("creating a semaphore", device.raw.create_semaphore(&semaphore, None))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Width and height in pixels.
+    pub fn extent(&self) -> [u32; 2] {
+        self.extent
+    }
+
+    /// The format of its images, for imgui's renderer.
+    pub fn format(&self) -> vk::Format {
+        self.format
+    }
+
+    /// Waits for the next image to draw to.
+    ///
+    /// # Errors
+    /// What Vulkan says.
+    pub fn acquire(&mut self) -> Result<Acquired> {
+        let acquired = self.acquired[self.next_acquire];
+        // SAFETY: the semaphore's last wait is over: the caller waits for a frame's fence before
+        // it begins the frame, and there are as many semaphores as frames.
+        let result = unsafe { self.loader.acquire_next_image(self.raw, u64::MAX, acquired, vk::Fence::null()) };
+        match result {
+            // A suboptimal image can still be shown; presenting it says so again.
+            Ok((index, _suboptimal)) => {
+                self.next_acquire = (self.next_acquire + 1) % FRAMES_IN_FLIGHT;
+                Ok(Acquired::Image(AcquiredImage { index, acquired }))
+            }
+            Err(vk::Result::ERROR_OUT_OF_DATE_KHR) => Ok(Acquired::Stale),
+            Err(result) => check("acquiring an image of the window", Err(result)),
+        }
+    }
+
+    /// Copies `picture` to the acquired image and opens it for drawing on top, with its top left
+    /// pixels where the sizes differ.
+    pub fn begin_drawing(&self, recording: &mut Recording<'_>, image: &AcquiredImage, picture: &Image) {
+        let raw = self.images[image.index as usize];
+        let buffer = recording.raw();
+        // The acquire semaphore is waited for at these stages, which the first barrier chains to.
+        let transfer = (vk::PipelineStageFlags2::ALL_TRANSFER, vk::AccessFlags2::TRANSFER_WRITE);
+        let attachment = (
+            vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
+            vk::AccessFlags2::COLOR_ATTACHMENT_READ | vk::AccessFlags2::COLOR_ATTACHMENT_WRITE,
+        );
+        let undefined = (vk::PipelineStageFlags2::ALL_TRANSFER, vk::AccessFlags2::NONE);
+        let (dst, color) = (vk::ImageLayout::TRANSFER_DST_OPTIMAL, vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL);
+        transition(recording, raw, vk::ImageLayout::UNDEFINED, undefined, dst, transfer);
+        let size = [0, 1].map(|axis| self.extent[axis].min(picture.extent()[axis]));
+        let corner = |axis: usize| i32::try_from(size[axis]).unwrap_or(i32::MAX);
+        let area = [vk::Offset3D::default(), vk::Offset3D { x: corner(0), y: corner(1), z: 1 }];
+        let blit = [vk::ImageBlit::default()
+            .src_subresource(LAYER)
+            .src_offsets(area)
+            .dst_subresource(LAYER)
+            .dst_offsets(area)];
+        // SAFETY: both images are in these layouts and hold the area.
+        unsafe {
+            recording.device().raw.cmd_blit_image(
+                buffer,
+                picture.raw,
+                vk::ImageLayout::GENERAL,
+                raw,
+                dst,
+                &blit,
+                vk::Filter::NEAREST,
+            );
+        }
+        transition(recording, raw, dst, transfer, color, attachment);
+        let target = [vk::RenderingAttachmentInfo::default()
+            .image_view(self.views[image.index as usize])
+            .image_layout(color)
+            .load_op(vk::AttachmentLoadOp::LOAD)
+            .store_op(vk::AttachmentStoreOp::STORE)];
+        let [width, height] = self.extent;
+        let rendering = vk::RenderingInfo::default()
+            .render_area(vk::Rect2D::default().extent(vk::Extent2D { width, height }))
+            .layer_count(1)
+            .color_attachments(&target);
+        // SAFETY: recording is under way; the view is in this layout.
+        unsafe { recording.device().raw.cmd_begin_rendering(buffer, &rendering) };
+    }
+
+    /// Ends the drawing, submits, and presents. False when the swapchain has become stale.
+    ///
+    /// # Errors
+    /// What Vulkan says.
+    pub fn present(&mut self, mut recording: Recording<'_>, image: &AcquiredImage) -> Result<bool> {
+        let raw = self.images[image.index as usize];
+        // SAFETY: `begin_drawing` began it.
+        unsafe { recording.device().raw.cmd_end_rendering(recording.raw()) };
+        let attachment = (
+            vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
+            vk::AccessFlags2::COLOR_ATTACHMENT_WRITE,
+        );
+        let nothing = (vk::PipelineStageFlags2::ALL_COMMANDS, vk::AccessFlags2::NONE);
+        let color = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
+        transition(&mut recording, raw, color, attachment, vk::ImageLayout::PRESENT_SRC_KHR, nothing);
+
+        let rendered = self.rendered[image.index as usize];
+        let wait = [vk::SemaphoreSubmitInfo::default()
+            .semaphore(image.acquired)
+            .stage_mask(vk::PipelineStageFlags2::ALL_TRANSFER)];
+        let signal = [vk::SemaphoreSubmitInfo::default()
+            .semaphore(rendered)
+            .stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)];
+        recording.submit_between(&wait, &signal)?;
+
+        let (semaphores, swapchains, indices) = ([rendered], [self.raw], [image.index]);
+        let info = vk::PresentInfoKHR::default()
+            .wait_semaphores(&semaphores)
+            .swapchains(&swapchains)
+            .image_indices(&indices);
+        // SAFETY: the image is in the layout for presenting once the semaphore is signalled.
+        match unsafe { self.loader.queue_present(self.device.queue, &info) } {
+            Ok(suboptimal) => Ok(!suboptimal),
+            Err(vk::Result::ERROR_OUT_OF_DATE_KHR) => Ok(false),
+            Err(result) => check("presenting", Err(result)),
+        }
+    }
+}
+
+impl Drop for Swapchain {
+    fn drop(&mut self) {
+        // SAFETY: the device is waited for, so that no image or semaphore is in use; null handles
+        // are allowed. The surface goes after, by its Arc.
+        unsafe {
+            let _ = self.device.raw.device_wait_idle();
+            for view in &self.views {
+                self.device.raw.destroy_image_view(*view, None);
+            }
+            for semaphore in self.rendered.iter().chain(&self.acquired) {
+                self.device.raw.destroy_semaphore(*semaphore, None);
+            }
+            self.loader.destroy_swapchain(self.raw, None);
+        }
+        let _ = &self.surface;
+    }
+}
+
+type Scope = (vk::PipelineStageFlags2, vk::AccessFlags2);
+
+fn transition(
+    recording: &mut Recording<'_>,
+    image: vk::Image,
+    old: vk::ImageLayout,
+    before: Scope,
+    new: vk::ImageLayout,
+    after: Scope,
+) {
+    let barrier = [vk::ImageMemoryBarrier2::default()
+        .image(image)
+        .subresource_range(WHOLE)
+        .old_layout(old)
+        .src_stage_mask(before.0)
+        .src_access_mask(before.1)
+        .new_layout(new)
+        .dst_stage_mask(after.0)
+        .dst_access_mask(after.1)];
+    recording.depend(&vk::DependencyInfo::default().image_memory_barriers(&barrier));
+}
+
+fn extent(capabilities: &vk::SurfaceCapabilitiesKHR, size: [u32; 2]) -> [u32; 2] {
+    let current = capabilities.current_extent;
+    if current.width != u32::MAX {
+        return [current.width, current.height];
+    }
+    let (min, max) = (capabilities.min_image_extent, capabilities.max_image_extent);
+    [size[0].clamp(min.width, max.width), size[1].clamp(min.height, max.height)]
+}
+
+fn composite_alpha(capabilities: &vk::SurfaceCapabilitiesKHR) -> vk::CompositeAlphaFlagsKHR {
+    let supported = capabilities.supported_composite_alpha;
+    [
+        vk::CompositeAlphaFlagsKHR::OPAQUE,
+        vk::CompositeAlphaFlagsKHR::INHERIT,
+        vk::CompositeAlphaFlagsKHR::PRE_MULTIPLIED,
+    ]
+    .into_iter()
+    .find(|mode| supported.contains(*mode))
+    .unwrap_or(vk::CompositeAlphaFlagsKHR::OPAQUE)
+}
