@@ -1,8 +1,9 @@
 //! Compiles every compute shader in `shaders/` to SPIR-V. `src/vulkan/pipeline.rs` embeds them.
 
 use glslang::{
-    Compiler, CompilerOptions, Program, Shader, ShaderInput, ShaderSource, ShaderStage,
-    SourceLanguage, SpirvVersion, Target, VulkanVersion, error::GlslangError,
+    Compiler, CompilerOptions, Program, Shader, ShaderInput, ShaderSource, ShaderStage, SourceLanguage,
+    SpirvVersion, Target, VulkanVersion,
+    error::GlslangError,
     include::{IncludeHandler, IncludeResult, IncludeType},
 };
 use std::path::{Path, PathBuf};
@@ -19,10 +20,7 @@ impl IncludeHandler for Includes {
         _depth: usize,
     ) -> Option<IncludeResult> {
         let path = self.0.join(name);
-        Some(IncludeResult {
-            data: std::fs::read_to_string(&path).ok()?,
-            name: path.display().to_string(),
-        })
+        Some(IncludeResult { data: std::fs::read_to_string(&path).ok()?, name: path.display().to_string() })
     }
 }
 
@@ -59,10 +57,7 @@ fn compile(path: &Path) -> Result<Vec<u32>, GlslangError> {
     let source = ShaderSource::from(text);
     let options = CompilerOptions {
         source_language: SourceLanguage::GLSL,
-        target: Target::Vulkan {
-            version: VulkanVersion::Vulkan1_3,
-            spirv_version: SpirvVersion::SPIRV1_6,
-        },
+        target: Target::Vulkan { version: VulkanVersion::Vulkan1_3, spirv_version: SpirvVersion::SPIRV1_6 },
         ..CompilerOptions::default()
     };
     let mut includes = Includes(Path::new("shaders").join("include"));

@@ -1,8 +1,8 @@
 //! The command line, as values. Nothing is rendered here.
 
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::scene::{self, BUILTINS, SceneRef};
-use crate::settings::{DEFAULT_SAMPLES, Settings};
+use crate::settings::{DEFAULT_SAMPLES, DeviceChoice, Settings};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -43,8 +43,9 @@ pub enum Command {
 /// `thinlens view`.
 #[derive(Debug, Args, Default)]
 pub struct ViewArgs {
+    /// What to render.
     #[command(flatten)]
-    settings: SettingsArgs,
+    pub settings: SettingsArgs,
     /// On which device, and whether it is watched.
     #[command(flatten)]
     pub device: DeviceArgs,
@@ -53,8 +54,9 @@ pub struct ViewArgs {
 /// `thinlens render`.
 #[derive(Debug, Args)]
 pub struct RenderArgs {
+    /// What to render.
     #[command(flatten)]
-    settings: SettingsArgs,
+    pub settings: SettingsArgs,
     /// The picture: .png (8-bit sRGB) or .exr (linear f32 R, G, B, and count: samples per pixel)
     #[arg(short, long, value_name = "OUT.png|OUT.exr")]
     pub output: PathBuf,
@@ -80,8 +82,9 @@ pub struct DeviceArgs {
     pub validation: bool,
 }
 
+/// What to render: a scene, and what to change of it.
 #[derive(Debug, Args, Default)]
-struct SettingsArgs {
+pub struct SettingsArgs {
     /// A built-in scene (see thinlens scenes) or a .toml file [default: version-4]
     scene: Option<String>,
     /// Antialiasing points per pixel: more for less noise [default: 64, in the viewer 256]
@@ -111,37 +114,36 @@ struct SettingsArgs {
     exposure: Option<f32>,
 }
 
-impl ViewArgs {
-    /// The settings that the viewer starts with, and the window's size if one was asked for.
-    ///
-    /// # Errors
-    /// Of the scene, or [`Error::OutOfRange`].
-    pub fn settings(&self) -> Result<(Settings, Option<[u32; 2]>)> {
-        Ok((self.settings.resolve(DEFAULT_VIEW_SAMPLES)?, self.settings.size))
-    }
-
-    /// The scene, as it was named.
-    pub fn scene(&self) -> &str {
-        self.settings.scene()
-    }
-}
-
-impl RenderArgs {
-    /// What to render.
-    ///
-    /// # Errors
-    /// Of the scene, or [`Error::OutOfRange`].
-    pub fn settings(&self) -> Result<Settings> {
-        self.settings.resolve(DEFAULT_SAMPLES)
+impl DeviceArgs {
+    /// As a plain value.
+    pub fn choice(&self) -> DeviceChoice {
+        DeviceChoice { device: self.device.clone(), validation: self.validation }
     }
 }
 
 impl SettingsArgs {
-    fn scene(&self) -> &str {
+    /// The settings of a picture for a file.
+    ///
+    /// # Errors
+    /// Of the scene, or [`crate::error::Error::OutOfRange`].
+    pub fn of_file(&self) -> Result<Settings> {
+        self.resolve(DEFAULT_SAMPLES)
+    }
+
+    /// The settings that the viewer starts with, and the window's size if one was asked for.
+    ///
+    /// # Errors
+    /// Of the scene, or [`crate::error::Error::OutOfRange`].
+    pub fn of_window(&self) -> Result<(Settings, Option<[u32; 2]>)> {
+        Ok((self.resolve(DEFAULT_VIEW_SAMPLES)?, self.size))
+    }
+
+    /// The scene, as it was named.
+    pub fn scene(&self) -> &str {
         self.scene.as_deref().unwrap_or(BUILTINS[0].name)
     }
 
-    fn resolve(&self, samples: u32) -> Result<Settings, Error> {
+    fn resolve(&self, samples: u32) -> Result<Settings> {
         let mut settings = Settings::of_scene(SceneRef::new(scene::load(self.scene())?));
         let estimator = &mut settings.estimator;
         estimator.size = self.size.unwrap_or(estimator.size);

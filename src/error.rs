@@ -106,7 +106,10 @@ impl Error {
     /// The process's exit status: 2 for wrong use, 1 for a failure.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::UnknownScene { .. } | Self::UnknownFormat(_) | Self::OutOfRange(_) | Self::UnknownDevice { .. } => 2,
+            Self::UnknownScene { .. }
+            | Self::UnknownFormat(_)
+            | Self::OutOfRange(_)
+            | Self::UnknownDevice { .. } => 2,
             _ => 1,
         }
     }

@@ -204,18 +204,11 @@ impl SceneData {
 }
 
 fn sphere(sphere: &scene::Sphere) -> Sphere {
-    Sphere {
-        center: sphere.center.to_array(),
-        radius: sphere.radius,
-    }
+    Sphere { center: sphere.center.to_array(), radius: sphere.radius }
 }
 
 fn aabb(aabb: &scene::Aabb) -> Box {
-    Box {
-        lower: aabb.lower.to_array(),
-        upper: aabb.upper.to_array(),
-        ..Zeroable::zeroed()
-    }
+    Box { lower: aabb.lower.to_array(), upper: aabb.upper.to_array(), ..Zeroable::zeroed() }
 }
 
 fn triangle(triangle: &scene::Triangle) -> Triangle {
@@ -230,10 +223,7 @@ fn triangle(triangle: &scene::Triangle) -> Triangle {
 
 fn plane(plane: &scene::Plane) -> Plane {
     let normal = plane.normal.as_dvec3().normalize();
-    Plane {
-        normal: normal.as_vec3().to_array(),
-        offset: normal.dot(plane.point.as_dvec3()) as f32,
-    }
+    Plane { normal: normal.as_vec3().to_array(), offset: normal.dot(plane.point.as_dvec3()) as f32 }
 }
 
 fn material(material: &scene::Material) -> Material {

@@ -2,14 +2,14 @@
 
 use clap::Parser;
 use std::process::ExitCode;
-use thinlens::cli::{Cli, Command, RenderArgs};
-use thinlens::error::Result;
-use thinlens::{output, scene};
+use thinlens::cli::{Cli, Command, RenderArgs, ViewArgs};
+use thinlens::error::{Error, Result};
+use thinlens::{app, output};
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
     env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("warn")).init();
-    match run(cli.command.unwrap_or(Command::Devices)) {
+    match run(cli.command.unwrap_or_else(|| Command::View(ViewArgs::default()))) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("thinlens: {error}");
@@ -20,24 +20,21 @@ fn main() -> ExitCode {
 
 fn run(command: Command) -> Result<()> {
     match command {
-        Command::Render(args) => render(args),
-        Command::Scenes => {
-            for scene in scene::BUILTINS {
-                println!("{:16} {}", scene.name, scene.about);
-            }
-            Ok(())
+        Command::View(args) => view(&args),
+        Command::Render(RenderArgs { settings, output, stats, device, quiet }) => {
+            let settings = settings.of_file()?;
+            output::render(&output::Job { settings, output, stats, device: device.choice(), quiet })
         }
-        _ => output::list_devices(),
+        Command::Devices => output::list_devices(),
+        Command::Scenes => output::list_scenes(),
     }
 }
 
-fn render(args: RenderArgs) -> Result<()> {
-    output::render(&output::Job {
-        settings: args.settings()?,
-        output: args.output,
-        stats: args.stats,
-        device: args.device.device,
-        validation: args.device.validation,
-        quiet: args.quiet,
-    })
+fn view(args: &ViewArgs) -> Result<()> {
+    let (scene, device) = (args.settings.scene().to_owned(), args.device.choice());
+    let (settings, size) = args.settings.of_window()?;
+    match app::run(app::Options { settings, size, scene: scene.clone(), device: device.clone() }) {
+        Err(Error::NoDisplay(why)) => output::render_instead(args.settings.of_file()?, &scene, device, &why),
+        outcome => outcome,
+    }
 }

@@ -29,6 +29,15 @@ pub struct Settings {
     pub samples: u32,
 }
 
+/// Where to render.
+#[derive(Debug, Clone, Default)]
+pub struct DeviceChoice {
+    /// The device, by index or part of its name; none for the best.
+    pub device: Option<String>,
+    /// Whether the validation layer watches; any message of it is a failure.
+    pub validation: bool,
+}
+
 /// Whatever changes the integral that a pixel estimates.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Estimator {
@@ -68,9 +77,7 @@ impl Settings {
                 seed: 0,
                 scene,
             },
-            view: View {
-                exposure_stops: 0.0,
-            },
+            view: View { exposure_stops: 0.0 },
             samples: DEFAULT_SAMPLES,
         }
     }
@@ -80,13 +87,7 @@ impl Settings {
     /// # Errors
     /// [`Error::OutOfRange`], naming the option, the value and the range.
     pub fn check(&self) -> Result<()> {
-        let Estimator {
-            lens,
-            size,
-            jitter,
-            max_bounces,
-            ..
-        } = &self.estimator;
+        let Estimator { lens, size, jitter, max_bounces, .. } = &self.estimator;
         in_range("size: width", size[0], 1, MAX_EXTENT)?;
         in_range("size: height", size[1], 1, MAX_EXTENT)?;
         in_range("lens-diameter", lens.diameter, 0.0, MAX_LENGTH)?;
@@ -104,7 +105,5 @@ fn in_range<T: PartialOrd + std::fmt::Display>(name: &str, value: T, low: T, hig
     if value >= low && value <= high {
         return Ok(());
     }
-    Err(Error::OutOfRange(format!(
-        "{name} is {value}, but must be from {low} to {high}"
-    )))
+    Err(Error::OutOfRange(format!("{name} is {value}, but must be from {low} to {high}")))
 }

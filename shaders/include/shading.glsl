@@ -23,7 +23,8 @@ vec3 surface_color(Material material, vec3 position) {
 }
 
 vec3 background(vec3 direction) {
-    return mix(environment.horizon, environment.zenith, clamp(direction.y, 0.0, 1.0));
+    float height = clamp(direction.y, 0.0, 1.0);
+    return mix(environment.horizon, environment.zenith, height * (2.0 - height));
 }
 
 // Emission, ambient, and direct light with hard shadows, towards -ray.direction.

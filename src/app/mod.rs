@@ -1,1 +1,47 @@
-//! stub
+//! The viewer: a window that shows the film as it fills, and a panel that changes what is rendered.
+
+mod graphics;
+mod ui;
+mod window;
+
+use crate::error::{Error, Result};
+use crate::settings::{DeviceChoice, Settings};
+use std::sync::{Arc, Mutex, PoisonError};
+use winit::event_loop::EventLoop;
+
+/// What the viewer starts with.
+#[derive(Debug, Clone)]
+pub struct Options {
+    /// What to render. The picture's size follows the window's.
+    pub settings: Settings,
+    /// The scene as it was named, for the scene chooser.
+    pub scene: String,
+    /// The window's size in physical pixels, if one was asked for.
+    pub size: Option<[u32; 2]>,
+    /// Where to render.
+    pub device: DeviceChoice,
+}
+
+/// Opens the viewer and returns when it is closed.
+///
+/// # Errors
+/// [`Error::NoDisplay`] where no window can be opened at all; otherwise whatever ended the viewer.
+pub fn run(options: Options) -> Result<()> {
+    let event_loop = EventLoop::new().map_err(|error| Error::NoDisplay(reason(&error)))?;
+    let validation = Arc::new(Mutex::new(0));
+    let mut viewer = window::Viewer::new(options, Arc::clone(&validation));
+    let ended = event_loop.run_app(&mut viewer);
+    let outcome = viewer.finish();
+    ended.map_err(|error| Error::Window(reason(&error)))?;
+    outcome?;
+    match *validation.lock().unwrap_or_else(PoisonError::into_inner) {
+        0 => Ok(()),
+        count => Err(Error::Validation(count)),
+    }
+}
+
+/// Without the source file that winit puts in front.
+fn reason(error: &dyn std::fmt::Display) -> String {
+    let text = error.to_string().replace('\n', " ");
+    text.rsplit(": ").next().unwrap_or_default().trim_end_matches('.').to_owned()
+}

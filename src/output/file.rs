@@ -1,7 +1,9 @@
 //! Picture files. A file appears whole or not at all.
 
 use crate::error::{Error, Result};
-use exr::prelude::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, WritableImage};
+use exr::prelude::{
+    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, WritableImage,
+};
 use std::ffi::OsString;
 use std::io::{BufWriter, Cursor, Write};
 use std::path::Path;
@@ -93,8 +95,5 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
 }
 
 fn failed(path: &Path, reason: &dyn std::fmt::Display) -> Error {
-    Error::Write {
-        path: path.to_path_buf(),
-        reason: reason.to_string(),
-    }
+    Error::Write { path: path.to_path_buf(), reason: reason.to_string() }
 }

@@ -4,7 +4,7 @@ use super::progress::ProgressDisplay;
 use super::{PictureFormat, Stats, write_exr, write_png};
 use crate::error::{Error, Result};
 use crate::renderer::Renderer;
-use crate::settings::Settings;
+use crate::settings::{DeviceChoice, Settings};
 use crate::vulkan::{Device, Instance};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -18,10 +18,8 @@ pub struct Job {
     pub output: PathBuf,
     /// Where to write [`Stats`], if anywhere.
     pub stats: Option<PathBuf>,
-    /// Which device, by index or part of its name; none for the best.
-    pub device: Option<String>,
-    /// Whether the validation layer watches.
-    pub validation: bool,
+    /// Where to render.
+    pub device: DeviceChoice,
     /// Whether to say nothing unless it fails.
     pub quiet: bool,
 }
@@ -33,7 +31,7 @@ pub struct Job {
 pub fn render(job: &Job) -> Result<()> {
     job.settings.check()?;
     let format = PictureFormat::of(&job.output).ok_or_else(|| Error::UnknownFormat(job.output.clone()))?;
-    let instance = Instance::new(job.validation, None)?;
+    let instance = Instance::new(job.device.validation, None)?;
     let rendered = render_on(&instance, job, format);
     // The layer speaks until the device is gone.
     match instance.validation_messages().len() {
@@ -42,8 +40,21 @@ pub fn render(job: &Job) -> Result<()> {
     }
 }
 
+/// With no display: renders to `thinlens.png` what the viewer would have shown, and says so.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_instead(settings: Settings, scene: &str, device: DeviceChoice, why: &str) -> Result<()> {
+    eprintln!("no display for the viewer ({why}); rendering the scene to a file instead");
+    let output = std::env::current_dir().unwrap_or_default().join("thinlens.png");
+    render(&Job { settings, output: output.clone(), stats: None, device, quiet: false })?;
+    println!("the picture is {}", output.display());
+    println!("next, try: thinlens render {scene} --lens-diameter 0 -o pinhole.png");
+    Ok(())
+}
+
 fn render_on(instance: &Arc<Instance>, job: &Job, format: PictureFormat) -> Result<()> {
-    let device = Device::open(instance, job.device.as_deref(), None)?;
+    let device = Device::open(instance, job.device.device.as_deref(), None)?;
     let size @ [width, height] = job.settings.estimator.size;
     let mut renderer = Renderer::new(&device)?;
     renderer.set(&job.settings)?;
@@ -88,22 +99,6 @@ fn render_on(instance: &Arc<Instance>, job: &Job, format: PictureFormat) -> Resu
             stats.msamples_per_second,
             stats.device,
         );
-    }
-    Ok(())
-}
-
-/// Prints the system's devices, a line each.
-///
-/// # Errors
-/// [`Error::NoLoader`], or [`Error::NoDevice`] where there is none.
-pub fn list_devices() -> Result<()> {
-    let devices = Instance::new(false, None)?.devices(None)?;
-    if devices.is_empty() {
-        return Err(Error::NoDevice("no driver is installed".into()));
-    }
-    for device in devices {
-        let fault = device.unusable.map_or_else(String::new, |fault| format!(", cannot be used: {fault}"));
-        println!("{}  {} ({}, {}{fault})", device.index, device.name, device.kind, device.driver);
     }
     Ok(())
 }

@@ -20,18 +20,12 @@ pub(super) struct ProgressDisplay {
 impl ProgressDisplay {
     pub(super) fn new(target: u32, pixels: u64, quiet: bool) -> Self {
         let bar = (!quiet && std::io::stderr().is_terminal()).then(|| {
-            let style = ProgressStyle::with_template("{bar:32} {pos}/{len} samples per pixel, {msg}, {eta} left")
-                .expect("the template is valid");
+            let style =
+                ProgressStyle::with_template("{bar:32} {pos}/{len} samples per pixel, {msg}, {eta} left")
+                    .expect("the template is valid");
             ProgressBar::new(u64::from(target)).with_style(style)
         });
-        Self {
-            bar,
-            target,
-            pixels,
-            started: Instant::now(),
-            last_line: Instant::now(),
-            quiet,
-        }
+        Self { bar, target, pixels, started: Instant::now(), last_line: Instant::now(), quiet }
     }
 
     pub(super) fn show(&mut self, samples: u32, traced: u64) {

@@ -31,7 +31,13 @@ impl Accumulate {
 
     /// Merges the pixels of the push constants' lattice, of which there are `traced`. With a reach,
     /// every pixel of the film gathers.
-    pub fn record(&self, recording: &mut Recording<'_>, bindings: &BindingSet, push: &AccumulatePush, traced: [u32; 2]) {
+    pub fn record(
+        &self,
+        recording: &mut Recording<'_>,
+        bindings: &BindingSet,
+        push: &AccumulatePush,
+        traced: [u32; 2],
+    ) {
         let extent = if push.reach == 0 { traced } else { push.lattice.extent };
         recording.dispatch(&self.0, bindings, bytemuck::bytes_of(push), extent);
     }

@@ -78,7 +78,12 @@ impl Trace {
     ///
     /// # Errors
     /// What Vulkan says.
-    pub fn bind(&self, scene: &SceneBuffers, batch: &Arc<Image>, counters: &Arc<Buffer>) -> Result<BindingSet> {
+    pub fn bind(
+        &self,
+        scene: &SceneBuffers,
+        batch: &Arc<Image>,
+        counters: &Arc<Buffer>,
+    ) -> Result<BindingSet> {
         BindingSet::new(&self.0, &scene.bindings(batch, counters))
     }
 
@@ -88,7 +93,13 @@ impl Trace {
     }
 
     /// Traces `extent` pixels of the push constants' lattice.
-    pub fn record(&self, recording: &mut Recording<'_>, bindings: &BindingSet, push: &TracePush, extent: [u32; 2]) {
+    pub fn record(
+        &self,
+        recording: &mut Recording<'_>,
+        bindings: &BindingSet,
+        push: &TracePush,
+        extent: [u32; 2],
+    ) {
         recording.dispatch(&self.0, bindings, bytemuck::bytes_of(push), extent);
     }
 }

@@ -19,7 +19,12 @@ pub(super) struct Film {
 }
 
 impl Film {
-    pub(super) fn new(device: &Arc<Device>, size: [u32; 2], accumulate: &Accumulate, resolve: &Resolve) -> Result<Self> {
+    pub(super) fn new(
+        device: &Arc<Device>,
+        size: [u32; 2],
+        accumulate: &Accumulate,
+        resolve: &Resolve,
+    ) -> Result<Self> {
         let most = device.max_extent();
         if size[0] > most || size[1] > most {
             let [width, height] = size;

@@ -104,7 +104,8 @@ impl Renderer {
     pub fn set(&mut self, settings: &Settings) -> Result<()> {
         settings.check()?;
         let last = self.settings.as_ref();
-        let restart = last.is_none_or(|last| last.estimator != settings.estimator) || settings.samples < self.samples;
+        let restart =
+            last.is_none_or(|last| last.estimator != settings.estimator) || settings.samples < self.samples;
         let estimator = &settings.estimator;
         if self.scene.as_ref().is_none_or(|loaded| loaded.scene != estimator.scene) {
             self.load_scene(&estimator.scene)?;
@@ -138,11 +139,7 @@ impl Renderer {
         let buffers = SceneBuffers::new(&self.device, &SceneData::new(scene))?;
         let trace = Trace::new(&self.device, &buffers)?;
         self.tally.forget_rate();
-        self.scene = Some(LoadedScene {
-            scene: scene.clone(),
-            buffers,
-            trace,
-        });
+        self.scene = Some(LoadedScene { scene: scene.clone(), buffers, trace });
         Ok(())
     }
 
@@ -323,10 +320,7 @@ impl Renderer {
     /// # Errors
     /// What Vulkan says.
     pub fn render(&mut self, on_progress: impl FnMut(&Progress)) -> Result<()> {
-        let pace = Pace {
-            budget: HEADLESS_BUDGET,
-            preview: false,
-        };
+        let pace = Pace { budget: HEADLESS_BUDGET, preview: false };
         self.render_at(pace, on_progress)
     }
 
@@ -389,4 +383,3 @@ fn accumulate_push(estimator: &Estimator, pass: Pass) -> AccumulatePush {
         reach: i32::try_from(reach(estimator.jitter)).unwrap_or(i32::MAX),
     }
 }
-

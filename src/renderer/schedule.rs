@@ -11,10 +11,22 @@ pub const MAX_BATCH: u32 = 16;
 /// The order in which the interleaved first sample fills a cell of 4 x 4 pixels. The first four
 /// phases are every second pixel both ways.
 const PHASES_OF_16: [[u32; 2]; 16] = [
-    [2, 2], [0, 0], [2, 0], [0, 2],
-    [1, 1], [3, 3], [3, 1], [1, 3],
-    [1, 0], [3, 2], [3, 0], [1, 2],
-    [0, 1], [2, 3], [2, 1], [0, 3],
+    [2, 2],
+    [0, 0],
+    [2, 0],
+    [0, 2],
+    [1, 1],
+    [3, 3],
+    [3, 1],
+    [1, 3],
+    [1, 0],
+    [3, 2],
+    [3, 0],
+    [1, 2],
+    [0, 1],
+    [2, 3],
+    [2, 1],
+    [0, 3],
 ];
 /// Likewise for a cell of 2 x 2.
 const PHASES_OF_4: [[u32; 2]; 4] = [[0, 0], [1, 1], [1, 0], [0, 1]];
@@ -41,22 +53,12 @@ impl Pass {
         } else {
             (first_sample / max_batch + 1) * max_batch
         };
-        Self {
-            first_sample,
-            sample_count: cut.min(target) - first_sample,
-            stride: 1,
-            phase: 0,
-        }
+        Self { first_sample, sample_count: cut.min(target) - first_sample, stride: 1, phase: 0 }
     }
 
     /// The first sample alone, of the first lattice of this stride (1, 2 or 4).
     pub fn interleaved(stride: u32) -> Self {
-        Self {
-            first_sample: 0,
-            sample_count: 1,
-            stride,
-            phase: 0,
-        }
+        Self { first_sample: 0, sample_count: 1, stride, phase: 0 }
     }
 
     /// The same samples of the next lattice, if there is one.
@@ -87,12 +89,7 @@ impl Pass {
             2 => PHASES_OF_4[self.phase as usize],
             _ => [0, 0],
         };
-        Lattice {
-            extent: size,
-            origin,
-            stride: self.stride,
-            pad0: 0,
-        }
+        Lattice { extent: size, origin, stride: self.stride, pad0: 0 }
     }
 
     /// How many columns and rows of pixels the lattice has.

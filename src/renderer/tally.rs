@@ -45,7 +45,12 @@ impl Tally {
         let frame = || {
             Ok(Frame {
                 timer: Timer::new(device)?,
-                counters: Buffer::new(device, "counters read-back", size_of::<Counters>() as u64, Residence::Host)?,
+                counters: Buffer::new(
+                    device,
+                    "counters read-back",
+                    size_of::<Counters>() as u64,
+                    Residence::Host,
+                )?,
                 pending: None,
             })
         };
@@ -77,7 +82,13 @@ impl Tally {
         recording.start(&self.frames[frame].timer);
     }
 
-    pub(super) fn stop(&mut self, recording: &mut Recording<'_>, frame: usize, traced: u64, counters: &Buffer) {
+    pub(super) fn stop(
+        &mut self,
+        recording: &mut Recording<'_>,
+        frame: usize,
+        traced: u64,
+        counters: &Buffer,
+    ) {
         let frame = &mut self.frames[frame];
         recording.stop(&frame.timer);
         recording.barrier();
@@ -94,8 +105,11 @@ impl Tally {
         if let Some(elapsed) = elapsed
             && traced > 0
         {
-            self.nanoseconds_per_sample = Some((elapsed.as_nanos() as f64 / traced as f64).max(1e-3));
+            // A clock that reads too little must not lead to a dispatch of seconds.
+            let least = self.nanoseconds_per_sample.unwrap_or(UNMEASURED_NANOSECONDS) / 8.0;
+            self.nanoseconds_per_sample = Some((elapsed.as_nanos() as f64 / traced as f64).max(least));
         }
+        log::trace!("frame: {traced} samples in {elapsed:?}");
         if picture == self.picture {
             let counters = Counters::read(&frame.counters);
             self.sum.traced += traced;

@@ -36,9 +36,7 @@ impl Camera {
     pub fn frame(&self) -> Frame {
         let w = (self.eye - self.look_at).as_dvec3().normalize();
         let u = self.up.as_dvec3().cross(w).normalize();
-        Frame {
-            world_from_camera: DMat3::from_cols(u, w.cross(u), w),
-        }
+        Frame { world_from_camera: DMat3::from_cols(u, w.cross(u), w) }
     }
 
     /// `k`: the distance of the view plane in pixels, for a picture of this height.

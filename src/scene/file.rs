@@ -24,10 +24,8 @@ pub fn load(scene: &str) -> Result<Scene> {
     if path.extension().is_none_or(|extension| extension != "toml") {
         return Err(unknown(scene));
     }
-    let text = std::fs::read_to_string(path).map_err(|source| Error::Read {
-        path: path.to_path_buf(),
-        source,
-    })?;
+    let text =
+        std::fs::read_to_string(path).map_err(|source| Error::Read { path: path.to_path_buf(), source })?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     parse(&name, scene, &text)
 }
@@ -42,26 +40,17 @@ fn parse(name: &str, file: &str, text: &str) -> Result<Scene> {
         let message = error.message().replace('\n', "; ");
         at(error.span().unwrap_or(0..0), message)
     })?;
-    tables
-        .into_scene(name)
-        .map_err(|fault| at(fault.span, fault.message))
+    tables.into_scene(name).map_err(|fault| at(fault.span, fault.message))
 }
 
 fn unknown(scene: &str) -> Error {
     let names = || BUILTINS.iter().map(|builtin| builtin.name);
-    let near: Vec<&str> = names()
-        .filter(|name| name.contains(scene) || strsim::jaro_winkler(name, scene) > 0.8)
-        .collect();
+    let near: Vec<&str> =
+        names().filter(|name| name.contains(scene) || strsim::jaro_winkler(name, scene) > 0.8).collect();
     let hint = if near.is_empty() {
-        format!(
-            "the built-in ones are {}, or give a .toml file",
-            names().collect::<Vec<_>>().join(", ")
-        )
+        format!("the built-in ones are {}, or give a .toml file", names().collect::<Vec<_>>().join(", "))
     } else {
         format!("did you mean {}?", near.join(" or "))
     };
-    Error::UnknownScene {
-        name: scene.to_owned(),
-        hint,
-    }
+    Error::UnknownScene { name: scene.to_owned(), hint }
 }

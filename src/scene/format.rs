@@ -4,8 +4,8 @@
 use super::file::Fault;
 use super::number::{Count, Extent, NonNegative, Positive, Rgb, Vector, VfovDegrees};
 use super::{
-    Aabb, Background, Camera, Checker, Lens, Light, LightKind, Material, Plane, Scene, Shaded,
-    Sphere, Triangle,
+    Aabb, Background, Camera, Checker, Lens, Light, LightKind, Material, Plane, Scene, Shaded, Sphere,
+    Triangle,
 };
 use glam::Vec3;
 use serde::Deserialize;
@@ -204,13 +204,9 @@ impl From<ColorInput> for Color {
     fn from(input: ColorInput) -> Self {
         match input {
             ColorInput::Plain(color) => Self(color.0, None),
-            ColorInput::Checker(checker) => Self(
-                checker.even.0,
-                Some(Checker {
-                    size: checker.size.0,
-                    odd_color: checker.odd.0,
-                }),
-            ),
+            ColorInput::Checker(checker) => {
+                Self(checker.even.0, Some(Checker { size: checker.size.0, odd_color: checker.odd.0 }))
+            }
         }
     }
 }
@@ -247,18 +243,12 @@ impl SceneFile {
             planes: Vec::new(),
         };
         for table in &self.sphere {
-            let shape = Sphere {
-                center: table.center.0,
-                radius: table.radius.0,
-            };
+            let shape = Sphere { center: table.center.0, radius: table.radius.0 };
             let material = find(&table.material)?;
             scene.spheres.push(Shaded { shape, material });
         }
         for table in &self.boxes {
-            let shape = Aabb {
-                lower: table.lower.0,
-                upper: table.upper.get_ref().0,
-            };
+            let shape = Aabb { lower: table.lower.0, upper: table.upper.get_ref().0 };
             if !shape.lower.cmplt(shape.upper).all() {
                 return Err(fault(&table.upper, "upper must be greater than lower on every axis"));
             }
@@ -275,10 +265,7 @@ impl SceneFile {
             scene.triangles.push(Shaded { shape: Triangle { vertices }, material });
         }
         for table in &self.plane {
-            let shape = Plane {
-                point: table.point.0,
-                normal: nonzero(&table.normal)?,
-            };
+            let shape = Plane { point: table.point.0, normal: nonzero(&table.normal)? };
             let material = find(&table.material)?;
             scene.planes.push(Shaded { shape, material });
         }
@@ -338,10 +325,7 @@ impl SceneFile {
             (name, material)
         });
         let emissive = std::mem::take(&mut self.emissive).into_iter().map(|(name, table)| {
-            let material = Material {
-                emission: table.radiance(),
-                ..Material::default()
-            };
+            let material = Material { emission: table.radiance(), ..Material::default() };
             (name, material)
         });
 
@@ -373,19 +357,11 @@ fn camera(table: &Spanned<CameraTable>, size: [u32; 2]) -> Result<(Camera, Lens)
             return Err(fault(span, message));
         }
     };
-    let camera = Camera {
-        eye: table.eye.0,
-        look_at: table.look_at.0,
-        up: table.up.0,
-        vfov_radians,
-    };
+    let camera = Camera { eye: table.eye.0, look_at: table.look_at.0, up: table.up.0, vfov_radians };
     if let Some(message) = camera.fault() {
         return Err(fault(span, message));
     }
-    let lens = Lens {
-        diameter: table.lens_diameter.0,
-        focal_distance: table.focal_distance.0,
-    };
+    let lens = Lens { diameter: table.lens_diameter.0, focal_distance: table.focal_distance.0 };
     Ok((camera, lens))
 }
 
@@ -417,8 +393,5 @@ fn nonzero(vector: &Spanned<Vector>) -> Result<Vec3, Fault> {
 }
 
 fn fault<T>(at: &Spanned<T>, message: &str) -> Fault {
-    Fault {
-        span: at.span(),
-        message: message.to_owned(),
-    }
+    Fault { span: at.span(), message: message.to_owned() }
 }

@@ -22,8 +22,8 @@ pub enum LightKind {
     Directional(Vec3),
 }
 
-/// Radiance where nothing is hit: `horizon` up to the horizontal, then linear in the direction's
-/// height towards `zenith` straight up.
+/// Radiance where nothing is hit: `horizon` up to the horizontal, `zenith` straight up, and in
+/// between mixed by `y (2 - y)` of the unit direction's height `y`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Background {
     /// At and below the horizon.

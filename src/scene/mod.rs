@@ -9,7 +9,7 @@ mod material;
 mod number;
 mod shape;
 
-pub use builtin::{Builtin, BUILTINS};
+pub use builtin::{BUILTINS, Builtin};
 pub use camera::{Camera, Frame, Lens};
 pub use file::load;
 pub use light::{Background, Light, LightKind};

@@ -38,12 +38,7 @@ impl Buffer {
         );
         // SAFETY: the device is valid; the handle goes into its guard before anything else.
         let raw = check("creating a buffer", unsafe { device.raw.create_buffer(&info, None) })?;
-        let mut buffer = Self {
-            raw,
-            size,
-            allocation: None,
-            device: Arc::clone(device),
-        };
+        let mut buffer = Self { raw, size, allocation: None, device: Arc::clone(device) };
         // SAFETY: raw is a buffer of this device.
         let requirements = unsafe { device.raw.get_buffer_memory_requirements(raw) };
         let location = match residence {
@@ -120,10 +115,7 @@ pub(super) fn allocate(
     };
     device.allocator().allocate(&description).map_err(|error| {
         log::debug!("allocating {name}: {error}");
-        Error::DeviceMemory {
-            what: name.to_owned(),
-            bytes: requirements.size,
-        }
+        Error::DeviceMemory { what: name.to_owned(), bytes: requirements.size }
     })
 }
 

@@ -50,6 +50,11 @@ impl Commands {
         Ok(commands)
     }
 
+    /// The pool it comes from, for imgui's renderer.
+    pub fn raw_pool(&self) -> vk::CommandPool {
+        self.pool
+    }
+
     /// Waits until what was submitted last is done.
     ///
     /// # Errors
@@ -93,17 +98,18 @@ impl Recording<'_> {
         self.commands.buffer
     }
 
-    /// The pool it came from, for imgui's renderer.
-    pub fn raw_pool(&self) -> vk::CommandPool {
-        self.commands.pool
-    }
-
     pub(super) fn device(&self) -> &Device {
         &self.commands.device
     }
 
     /// Runs `pipeline` for `extent` invocations, rounded up to whole workgroups.
-    pub fn dispatch(&mut self, pipeline: &ComputePipeline, bindings: &BindingSet, push: &[u8], extent: [u32; 2]) {
+    pub fn dispatch(
+        &mut self,
+        pipeline: &ComputePipeline,
+        bindings: &BindingSet,
+        push: &[u8],
+        extent: [u32; 2],
+    ) {
         let device = self.device();
         let buffer = self.raw();
         let groups = pipeline.workgroups(extent);
@@ -185,9 +191,11 @@ impl Recording<'_> {
     /// Copies an image's pixels to the start of a buffer, row by row without padding.
     pub fn copy_image(&mut self, from: &Image, to: &Buffer) {
         let [width, height] = from.extent();
-        let region = [vk::BufferImageCopy::default()
-            .image_subresource(LAYER)
-            .image_extent(vk::Extent3D { width, height, depth: 1 })];
+        let region = [vk::BufferImageCopy::default().image_subresource(LAYER).image_extent(vk::Extent3D {
+            width,
+            height,
+            depth: 1,
+        })];
         // SAFETY: recording is under way, the image is in GENERAL, and callers give a buffer of at
         // least `from.byte_len()` bytes.
         unsafe {
@@ -202,7 +210,8 @@ impl Recording<'_> {
         self.barrier();
     }
 
-    /// Starts a timer.
+    /// Starts a timer. The barriers here and in [`Self::stop`] are what ties the timestamps to the
+    /// commands between them: no order is promised otherwise, and lavapipe writes both late.
     pub fn start(&mut self, timer: &Timer) {
         if self.device().timestamp_period > 0.0 {
             // SAFETY: recording is under way and the pool has two queries.
@@ -211,12 +220,14 @@ impl Recording<'_> {
                 let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
                 self.device().raw.cmd_write_timestamp2(self.raw(), stage, timer.pool, 0);
             }
+            self.barrier();
         }
     }
 
     /// Stops a timer, after all commands recorded so far.
     pub fn stop(&mut self, timer: &Timer) {
         if self.device().timestamp_period > 0.0 {
+            self.barrier();
             let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
             // SAFETY: recording is under way and the query was reset by `start`.
             unsafe { self.device().raw.cmd_write_timestamp2(self.raw(), stage, timer.pool, 1) };

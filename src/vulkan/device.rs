@@ -57,7 +57,12 @@ impl Instance {
             .collect()
     }
 
-    fn describe(&self, index: usize, raw: vk::PhysicalDevice, surface: Option<&Surface>) -> Result<DeviceInfo> {
+    fn describe(
+        &self,
+        index: usize,
+        raw: vk::PhysicalDevice,
+        surface: Option<&Surface>,
+    ) -> Result<DeviceInfo> {
         let mut driver = vk::PhysicalDeviceDriverProperties::default();
         let mut properties = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
         // SAFETY: raw is a device of this instance; the structures chain to live locals.
@@ -74,14 +79,21 @@ impl Instance {
             index,
             name: text(properties.device_name_as_c_str()),
             kind,
-            driver: format!("{} {}", text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str())),
+            driver: format!(
+                "{} {}",
+                text(driver.driver_name_as_c_str()),
+                text(driver.driver_info_as_c_str())
+            ),
             unusable: None,
             rank,
             raw,
             queue_family: 0,
         };
         if properties.api_version < vk::API_VERSION_1_3 {
-            let (major, minor) = (vk::api_version_major(properties.api_version), vk::api_version_minor(properties.api_version));
+            let (major, minor) = (
+                vk::api_version_major(properties.api_version),
+                vk::api_version_minor(properties.api_version),
+            );
             info.unusable = Some(format!("Vulkan {major}.{minor}, needs 1.3"));
             return Ok(info);
         }
@@ -112,7 +124,11 @@ impl Device {
     ///
     /// # Errors
     /// [`Error::UnknownDevice`], [`Error::NoDevice`], or what Vulkan says.
-    pub fn open(instance: &Arc<Instance>, wanted: Option<&str>, surface: Option<&Surface>) -> Result<Arc<Self>> {
+    pub fn open(
+        instance: &Arc<Instance>,
+        wanted: Option<&str>,
+        surface: Option<&Surface>,
+    ) -> Result<Arc<Self>> {
         let devices = instance.devices(surface)?;
         let info = choose(&devices, wanted)?;
         log::info!("device {}: {} ({})", info.index, info.name, info.driver);
@@ -129,9 +145,8 @@ impl Device {
         let queues = [vk::DeviceQueueCreateInfo::default()
             .queue_family_index(info.queue_family)
             .queue_priorities(&[1.0])];
-        let mut features = vk::PhysicalDeviceVulkan13Features::default()
-            .synchronization2(true)
-            .dynamic_rendering(true);
+        let mut features =
+            vk::PhysicalDeviceVulkan13Features::default().synchronization2(true).dynamic_rendering(true);
         let create = vk::DeviceCreateInfo::default()
             .queue_create_infos(&queues)
             .enabled_extension_names(&wanted)
@@ -259,10 +274,7 @@ fn choose<'a>(devices: &'a [DeviceInfo], wanted: Option<&str>) -> Result<&'a Dev
     let by_name = || devices.iter().find(|device| device.name.to_lowercase().contains(&lowercase));
     let device = by_index.or_else(by_name).ok_or_else(|| {
         let names = devices.iter().map(|device| format!("{} {}", device.index, device.name));
-        Error::UnknownDevice {
-            wanted: wanted.to_owned(),
-            available: names.collect::<Vec<_>>().join(", "),
-        }
+        Error::UnknownDevice { wanted: wanted.to_owned(), available: names.collect::<Vec<_>>().join(", ") }
     })?;
     match &device.unusable {
         Some(fault) => Err(Error::NoDevice(format!("{}: {fault}", device.name))),

@@ -1,7 +1,7 @@
 //! The loader, the instance, and the validation messenger.
 
-use super::validation::{FEATURES, LAYER, Messages};
 use super::check;
+use super::validation::{FEATURES, LAYER, Messages};
 use crate::error::{Error, Result};
 use ash::{ext, khr, vk};
 use std::ffi::{CStr, c_char};
@@ -25,8 +25,7 @@ impl Instance {
     /// [`Error::NoLoader`], [`Error::NoValidationLayer`], or what Vulkan says.
     pub fn new(validation: bool, display: Option<RawDisplayHandle>) -> Result<Arc<Self>> {
         // SAFETY: loading the system's Vulkan loader, whose initializers are trusted.
-        let entry =
-            unsafe { ash::Entry::load() }.map_err(|error| Error::NoLoader(error.to_string()))?;
+        let entry = unsafe { ash::Entry::load() }.map_err(|error| Error::NoLoader(error.to_string()))?;
         let available = extensions(&entry)?;
         let has = |name: &CStr| available.iter().any(|extension| extension == name);
 
@@ -59,11 +58,9 @@ impl Instance {
         }
 
         let messages = Box::<Messages>::default();
-        let application = vk::ApplicationInfo::default()
-            .application_name(c"thinlens")
-            .api_version(vk::API_VERSION_1_3);
-        let mut features =
-            vk::ValidationFeaturesEXT::default().enabled_validation_features(&FEATURES);
+        let application =
+            vk::ApplicationInfo::default().application_name(c"thinlens").api_version(vk::API_VERSION_1_3);
+        let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&FEATURES);
         let mut messenger = messages.messenger();
         let mut info = vk::InstanceCreateInfo::default()
             .application_info(&application)
@@ -80,19 +77,12 @@ impl Instance {
             }
             other => check("creating an instance", other)?,
         };
-        let mut instance = Self {
-            raw,
-            entry,
-            messenger: None,
-            debug_utils,
-            messages,
-        };
+        let mut instance = Self { raw, entry, messenger: None, debug_utils, messages };
         if validation {
             let debug = ext::debug_utils::Instance::new(&instance.entry, &instance.raw);
             // SAFETY: the messages it points to are boxed and dropped after it, in Drop.
-            let messenger = unsafe {
-                debug.create_debug_utils_messenger(&instance.messages.messenger(), None)
-            };
+            let messenger =
+                unsafe { debug.create_debug_utils_messenger(&instance.messages.messenger(), None) };
             let messenger = check("creating the validation messenger", messenger)?;
             instance.messenger = Some((debug, messenger));
         }

@@ -116,14 +116,14 @@ impl ComputePipeline {
             .zip(constants)
             .map(|(id, _)| vk::SpecializationMapEntry { constant_id: id, offset: 4 * id, size: 4 })
             .collect();
-        let specialization = vk::SpecializationInfo::default()
-            .map_entries(&entries)
-            .data(bytemuck::cast_slice(constants));
+        let specialization =
+            vk::SpecializationInfo::default().map_entries(&entries).data(bytemuck::cast_slice(constants));
         let module = vk::ShaderModuleCreateInfo::default().code(words);
         // SAFETY: the words are SPIR-V that build.rs compiled. The module is destroyed whether or
         // not the pipeline could be made of it, and not needed after.
         let created = unsafe {
-            let module = check("creating a shader module", self.device.raw.create_shader_module(&module, None))?;
+            let module =
+                check("creating a shader module", self.device.raw.create_shader_module(&module, None))?;
             let stage = vk::PipelineShaderStageCreateInfo::default()
                 .stage(vk::ShaderStageFlags::COMPUTE)
                 .module(module)
@@ -194,7 +194,8 @@ impl BindingSet {
             .collect();
         let pool = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
         // SAFETY: the device is valid; the handle goes into its guard before the next call.
-        let pool = check("creating a descriptor pool", unsafe { device.raw.create_descriptor_pool(&pool, None) })?;
+        let pool =
+            check("creating a descriptor pool", unsafe { device.raw.create_descriptor_pool(&pool, None) })?;
         let mut set = Self {
             raw: vk::DescriptorSet::null(),
             pool,

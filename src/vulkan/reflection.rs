@@ -63,12 +63,8 @@ impl ShaderInterface {
         let [entry_point] = entry_points.as_slice() else {
             panic!("a compute shader has one entry point");
         };
-        let mut interface = Self {
-            resources: BTreeMap::new(),
-            local_size: [1, 1],
-            push_size: 0,
-            structs: Vec::new(),
-        };
+        let mut interface =
+            Self { resources: BTreeMap::new(), local_size: [1, 1], push_size: 0, structs: Vec::new() };
         for mode in &entry_point.exec_modes {
             if mode.exec_mode == ExecutionMode::LocalSize {
                 interface.local_size = [0, 1].map(|axis| match mode.operands[axis].value {

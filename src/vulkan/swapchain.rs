@@ -54,9 +54,14 @@ impl Surface {
     ///
     /// # Errors
     /// What Vulkan says.
-    pub fn new(instance: &Arc<Instance>, display: RawDisplayHandle, window: RawWindowHandle) -> Result<Arc<Self>> {
+    pub fn new(
+        instance: &Arc<Instance>,
+        display: RawDisplayHandle,
+        window: RawWindowHandle,
+    ) -> Result<Arc<Self>> {
         // SAFETY: the handles are those of a live window, which the caller drops after the surface.
-        let raw = unsafe { ash_window::create_surface(&instance.entry, &instance.raw, display, window, None) };
+        let raw =
+            unsafe { ash_window::create_surface(&instance.entry, &instance.raw, display, window, None) };
         Ok(Arc::new(Self {
             raw: check("creating the window's surface", raw)?,
             loader: khr::surface::Instance::new(&instance.entry, &instance.raw),
@@ -100,9 +105,9 @@ impl Swapchain {
             return Ok(None);
         }
         // The resolve pass encodes sRGB itself, so the format must not do it again.
-        let format = formats.iter().find(|format| {
-            [vk::Format::B8G8R8A8_UNORM, vk::Format::R8G8B8A8_UNORM].contains(&format.format)
-        });
+        let format = formats
+            .iter()
+            .find(|format| [vk::Format::B8G8R8A8_UNORM, vk::Format::R8G8B8A8_UNORM].contains(&format.format));
         let Some(format) = format else {
             return Err(Error::Window("it takes no 8-bit pictures".into()));
         };
@@ -145,7 +150,8 @@ impl Swapchain {
         let device = Arc::clone(&self.device);
         // SAFETY: the swapchain is valid; each handle goes into its guard as it is made.
         unsafe {
-            self.images = check("listing the swapchain's images", self.loader.get_swapchain_images(self.raw))?;
+            self.images =
+                check("listing the swapchain's images", self.loader.get_swapchain_images(self.raw))?;
             for image in &self.images {
                 let info = vk::ImageViewCreateInfo::default()
                     .image(*image)
@@ -181,7 +187,8 @@ impl Swapchain {
         let acquired = self.acquired[self.next_acquire];
         // SAFETY: the semaphore's last wait is over: the caller waits for a frame's fence before
         // it begins the frame, and there are as many semaphores as frames.
-        let result = unsafe { self.loader.acquire_next_image(self.raw, u64::MAX, acquired, vk::Fence::null()) };
+        let result =
+            unsafe { self.loader.acquire_next_image(self.raw, u64::MAX, acquired, vk::Fence::null()) };
         match result {
             // A suboptimal image can still be shown; presenting it says so again.
             Ok((index, _suboptimal)) => {
@@ -250,10 +257,8 @@ impl Swapchain {
         let raw = self.images[image.index as usize];
         // SAFETY: `begin_drawing` began it.
         unsafe { recording.device().raw.cmd_end_rendering(recording.raw()) };
-        let attachment = (
-            vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
-            vk::AccessFlags2::COLOR_ATTACHMENT_WRITE,
-        );
+        let attachment =
+            (vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT, vk::AccessFlags2::COLOR_ATTACHMENT_WRITE);
         let nothing = (vk::PipelineStageFlags2::ALL_COMMANDS, vk::AccessFlags2::NONE);
         let color = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
         transition(&mut recording, raw, color, attachment, vk::ImageLayout::PRESENT_SRC_KHR, nothing);

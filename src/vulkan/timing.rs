@@ -18,15 +18,10 @@ impl Timer {
     /// # Errors
     /// What Vulkan says.
     pub fn new(device: &Arc<Device>) -> Result<Self> {
-        let info = vk::QueryPoolCreateInfo::default()
-            .query_type(vk::QueryType::TIMESTAMP)
-            .query_count(2);
+        let info = vk::QueryPoolCreateInfo::default().query_type(vk::QueryType::TIMESTAMP).query_count(2);
         // SAFETY: the device is valid.
         let pool = check("creating a timer", unsafe { device.raw.create_query_pool(&info, None) })?;
-        Ok(Self {
-            pool,
-            device: Arc::clone(device),
-        })
+        Ok(Self { pool, device: Arc::clone(device) })
     }
 
     /// The time between start and stop, once the commands around them are done. None where the

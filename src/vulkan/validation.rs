@@ -44,9 +44,7 @@ unsafe extern "system" fn receive(
         let text = data
             .as_ref()
             .filter(|data| !data.p_message.is_null())
-            .map_or_else(String::new, |data| {
-                CStr::from_ptr(data.p_message).to_string_lossy().into_owned()
-            });
+            .map_or_else(String::new, |data| CStr::from_ptr(data.p_message).to_string_lossy().into_owned());
         (&*messages.cast::<Messages>(), text)
     };
     eprintln!("validation: {text}");

@@ -1,0 +1,157 @@
+//! What a window needs of Vulkan: a swapchain that comes and goes, frames in flight, and imgui's
+//! renderer.
+
+use crate::error::{Error, Result};
+use crate::renderer::{Pace, Progress, Renderer};
+use crate::settings::{DeviceChoice, Settings};
+use crate::vulkan::{Acquired, Commands, Device, FRAMES_IN_FLIGHT, Instance, Surface, Swapchain};
+use imgui_rs_vulkan_renderer::{DynamicRendering, Options};
+use std::sync::Arc;
+use winit::raw_window_handle::{HasDisplayHandle, HasWindowHandle};
+use winit::window::Window;
+
+/// The order is the order of dropping: imgui's renderer keeps raw handles of the device, and the
+/// surface must go before the window.
+pub(super) struct Graphics {
+    overlay: Option<imgui_rs_vulkan_renderer::Renderer>,
+    swapchain: Option<Swapchain>,
+    renderer: Renderer,
+    frames: [Commands; FRAMES_IN_FLIGHT],
+    next_frame: usize,
+    surface: Arc<Surface>,
+    device: Arc<Device>,
+    _window: Arc<Window>,
+}
+
+impl Graphics {
+    pub(super) fn new(window: &Arc<Window>, choice: &DeviceChoice) -> Result<Self> {
+        let handles = || Ok((window.display_handle()?.as_raw(), window.window_handle()?.as_raw()));
+        let (display, handle) = handles()
+            .map_err(|error: winit::raw_window_handle::HandleError| Error::Window(error.to_string()))?;
+        let instance = Instance::new(choice.validation, Some(display))?;
+        let surface = Surface::new(&instance, display, handle)?;
+        let device = Device::open(&instance, choice.device.as_deref(), Some(&surface))?;
+        Ok(Self {
+            overlay: None,
+            swapchain: None,
+            renderer: Renderer::new(&device)?,
+            frames: [Commands::new(&device)?, Commands::new(&device)?],
+            next_frame: 0,
+            surface,
+            device,
+            _window: Arc::clone(window),
+        })
+    }
+
+    pub(super) fn instance(&self) -> &Arc<Instance> {
+        self.device.instance()
+    }
+
+    pub(super) fn device_name(&self) -> &str {
+        &self.device.info().name
+    }
+
+    pub(super) fn progress(&self) -> Progress {
+        self.renderer.progress()
+    }
+
+    pub(super) fn finished(&self) -> bool {
+        self.renderer.finished()
+    }
+
+    /// Makes the swapchain fit the window, and imgui's renderer the fonts. None while the window
+    /// has no area; else the size to render at.
+    pub(super) fn fit(&mut self, window: [u32; 2], imgui: &mut imgui::Context) -> Result<Option<[u32; 2]>> {
+        if window.contains(&0) {
+            self.swapchain = None;
+        } else if self.swapchain.is_none() {
+            self.swapchain = Swapchain::new(&self.device, &self.surface, window)?;
+        }
+        let Some(swapchain) = &self.swapchain else {
+            return Ok(None);
+        };
+        let extent = swapchain.extent();
+        if self.overlay.is_none() {
+            let (device, queue, allocator) = self.device.raw_parts();
+            let options = Options { in_flight_frames: FRAMES_IN_FLIGHT, ..Options::default() };
+            let target = DynamicRendering {
+                color_attachment_format: swapchain.format(),
+                depth_attachment_format: None,
+            };
+            let overlay = imgui_rs_vulkan_renderer::Renderer::with_gpu_allocator(
+                allocator,
+                device,
+                queue,
+                self.frames[0].raw_pool(),
+                target,
+                imgui,
+                Some(options),
+            );
+            self.overlay = Some(overlay.map_err(overlay_error)?);
+        }
+        Ok(Some(extent))
+    }
+
+    /// The window changed: another swapchain before the next frame.
+    pub(super) fn refit(&mut self) {
+        self.swapchain = None;
+    }
+
+    pub(super) fn set(&mut self, settings: &Settings) -> Result<()> {
+        self.renderer.set(settings)
+    }
+
+    /// Waits until the next frame's commands are free, and takes in what they measured.
+    pub(super) fn wait_for_frame(&mut self) -> Result<()> {
+        self.frames[self.next_frame].wait()?;
+        self.renderer.collect(self.next_frame)
+    }
+
+    /// Traces for as long as `pace` says, and shows the picture with imgui on top. Shows nothing
+    /// where the window has changed meanwhile. [`Self::wait_for_frame`] comes first.
+    pub(super) fn draw(&mut self, imgui: &mut imgui::Context, pace: Pace) -> Result<()> {
+        let Some(swapchain) = &mut self.swapchain else {
+            return Ok(());
+        };
+        let Acquired::Image(image) = swapchain.acquire()? else {
+            self.swapchain = None;
+            return Ok(());
+        };
+        let frame = self.next_frame;
+        self.next_frame = (frame + 1) % FRAMES_IN_FLIGHT;
+        let mut recording = self.frames[frame].begin()?;
+        if !self.renderer.finished() {
+            self.renderer.record(&mut recording, frame, pace);
+        }
+        self.renderer.record_resolve(&mut recording);
+
+        if let Some(picture) = self.renderer.picture() {
+            swapchain.begin_drawing(&mut recording, &image, picture);
+            if let Some(overlay) = &mut self.overlay {
+                overlay.cmd_draw(recording.raw(), imgui.render()).map_err(overlay_error)?;
+            }
+            if !swapchain.present(recording, &image)? {
+                self.swapchain = None;
+            }
+        }
+        Ok(())
+    }
+
+    /// The font atlas changed. imgui's renderer reads it when it is made.
+    pub(super) fn reload_fonts(&mut self) -> Result<()> {
+        self.device.wait_idle()?;
+        self.overlay = None;
+        Ok(())
+    }
+}
+
+impl Drop for Graphics {
+    fn drop(&mut self) {
+        // Nothing may be in use when the parts are dropped; a lost device uses nothing.
+        let _ = self.device.wait_idle();
+    }
+}
+
+fn overlay_error(error: imgui_rs_vulkan_renderer::RendererError) -> Error {
+    Error::Window(format!("drawing the panel failed: {error}"))
+}

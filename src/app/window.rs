@@ -1,0 +1,226 @@
+//! The window and its events.
+
+use super::Options;
+use super::graphics::Graphics;
+use super::ui::{Panel, Status};
+use crate::error::{Error, Result};
+use crate::renderer::Pace;
+use imgui_winit_support::{HiDpiMode, WinitPlatform};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+use winit::application::ApplicationHandler;
+use winit::dpi::PhysicalSize;
+use winit::event::{Event, WindowEvent};
+use winit::event_loop::{ActiveEventLoop, ControlFlow};
+use winit::window::{Window, WindowId};
+
+const DEFAULT_SIZE: [u32; 2] = [1280, 720];
+/// Tracing time a frame while a control is held, so that it follows the hand.
+const DRAGGING_BUDGET: Duration = Duration::from_millis(10);
+/// Otherwise: most of a frame, and the window still answers.
+const RESTING_BUDGET: Duration = Duration::from_millis(30);
+/// imgui takes a frame to notice an event and one more to draw what it did.
+const FRAMES_AFTER_EVENT: u32 = 3;
+
+/// The application as winit drives it.
+pub(super) struct Viewer {
+    options: Options,
+    validation: Arc<Mutex<usize>>,
+    open: Option<Open>,
+    error: Option<Error>,
+}
+
+struct Open {
+    graphics: Graphics,
+    platform: WinitPlatform,
+    imgui: imgui::Context,
+    panel: Panel,
+    window: Arc<Window>,
+    last_frame: Instant,
+    frames_to_draw: u32,
+    shown: (u32, u32),
+    validation: Arc<Mutex<usize>>,
+}
+
+impl Viewer {
+    pub(super) fn new(options: Options, validation: Arc<Mutex<usize>>) -> Self {
+        Self { options, validation, open: None, error: None }
+    }
+
+    /// Closes the window, if it is still open, and says what ended the viewer.
+    pub(super) fn finish(self) -> Result<()> {
+        drop(self.open);
+        self.error.map_or(Ok(()), Err)
+    }
+
+    fn fail(&mut self, event_loop: &ActiveEventLoop, error: Error) {
+        self.error.get_or_insert(error);
+        event_loop.exit();
+    }
+}
+
+impl ApplicationHandler for Viewer {
+    fn resumed(&mut self, event_loop: &ActiveEventLoop) {
+        if self.open.is_none() {
+            match Open::new(event_loop, &self.options, &self.validation) {
+                Ok(open) => self.open = Some(open),
+                Err(error) => self.fail(event_loop, error),
+            }
+        }
+    }
+
+    fn window_event(&mut self, event_loop: &ActiveEventLoop, window_id: WindowId, event: WindowEvent) {
+        let Some(open) = &mut self.open else {
+            return;
+        };
+        match event {
+            WindowEvent::CloseRequested => event_loop.exit(),
+            WindowEvent::RedrawRequested => {
+                if let Err(error) = open.frame() {
+                    self.fail(event_loop, error);
+                }
+            }
+            event => {
+                if let WindowEvent::Resized(_) = event {
+                    open.graphics.refit();
+                }
+                open.frames_to_draw = FRAMES_AFTER_EVENT;
+                let scale = open.platform.hidpi_factor();
+                let event: Event<()> = Event::WindowEvent { window_id, event };
+                open.platform.handle_event(open.imgui.io_mut(), &open.window, &event);
+                if open.platform.hidpi_factor() != scale {
+                    open.load_fonts();
+                    if let Err(error) = open.graphics.reload_fonts() {
+                        self.fail(event_loop, error);
+                    }
+                }
+            }
+        }
+    }
+
+    fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
+        let Some(open) = &self.open else {
+            return;
+        };
+        // Drawing waits for the display, so asking for the next frame at once does not spin.
+        let busy = open.frames_to_draw > 0 || !open.graphics.finished();
+        if busy && !open.is_hidden() {
+            open.window.request_redraw();
+        }
+        event_loop.set_control_flow(ControlFlow::Wait);
+    }
+
+    fn exiting(&mut self, _event_loop: &ActiveEventLoop) {
+        self.open = None;
+    }
+}
+
+impl Open {
+    fn new(event_loop: &ActiveEventLoop, options: &Options, validation: &Arc<Mutex<usize>>) -> Result<Self> {
+        let [width, height] = options.size.unwrap_or(DEFAULT_SIZE);
+        let attributes = Window::default_attributes()
+            .with_title("thinlens")
+            .with_min_inner_size(PhysicalSize::new(64, 64))
+            .with_inner_size(PhysicalSize::new(width, height));
+        let window = event_loop.create_window(attributes);
+        let window = Arc::new(window.map_err(|error| Error::Window(error.to_string()))?);
+        let graphics = Graphics::new(&window, &options.device)?;
+
+        let mut imgui = imgui::Context::create();
+        imgui.set_ini_filename(None);
+        imgui.io_mut().config_windows_move_from_title_bar_only = true;
+        let mut platform = WinitPlatform::new(&mut imgui);
+        platform.attach_window(imgui.io_mut(), &window, HiDpiMode::Default);
+        let mut open = Self {
+            graphics,
+            platform,
+            imgui,
+            panel: Panel::new(options.settings.clone(), options.scene.clone()),
+            window,
+            last_frame: Instant::now(),
+            frames_to_draw: FRAMES_AFTER_EVENT,
+            shown: (0, 0),
+            validation: Arc::clone(validation),
+        };
+        open.load_fonts();
+        open.style();
+        Ok(open)
+    }
+
+    fn is_hidden(&self) -> bool {
+        let size = self.window.inner_size();
+        size.width == 0 || size.height == 0 || self.window.is_minimized() == Some(true)
+    }
+
+    fn load_fonts(&mut self) {
+        let scale = self.platform.hidpi_factor() as f32;
+        let fonts = self.imgui.fonts();
+        fonts.clear();
+        fonts.add_font(&[imgui::FontSource::TtfData {
+            data: epaint_default_fonts::UBUNTU_LIGHT,
+            size_pixels: 16.0 * scale,
+            config: None,
+        }]);
+        self.imgui.io_mut().font_global_scale = scale.recip();
+    }
+
+    fn style(&mut self) {
+        let style = self.imgui.style_mut();
+        style.use_dark_colors();
+        style.window_rounding = 6.0;
+        style.frame_rounding = 4.0;
+        style.grab_rounding = 4.0;
+        style.window_padding = [12.0, 10.0];
+        style.frame_padding = [8.0, 4.0];
+        style.item_spacing = [8.0, 6.0];
+        style.colors[imgui::StyleColor::WindowBg as usize] = [0.08, 0.09, 0.11, 0.88];
+    }
+
+    fn frame(&mut self) -> Result<()> {
+        let size = self.window.inner_size();
+        let Some(size) = self.graphics.fit([size.width, size.height], &mut self.imgui)? else {
+            return Ok(());
+        };
+        self.frames_to_draw = self.frames_to_draw.saturating_sub(1);
+        self.graphics.wait_for_frame()?;
+
+        let io = self.imgui.io_mut();
+        io.update_delta_time(self.last_frame.elapsed());
+        self.last_frame = Instant::now();
+        // A pointer that the system will not move is no reason to stop.
+        if let Err(error) = self.platform.prepare_frame(io, &self.window) {
+            log::warn!("pointer: {error}");
+        }
+        let ui = self.imgui.new_frame();
+        let status = Status { progress: self.graphics.progress(), device: self.graphics.device_name() };
+        self.panel.draw(ui, &status);
+        let dragging = ui.is_any_item_active();
+        if ui.io().want_text_input {
+            self.frames_to_draw = self.frames_to_draw.max(1); // the caret blinks
+        }
+        self.platform.prepare_render(ui, &self.window);
+
+        self.panel.settings.estimator.size = size;
+        self.graphics.set(&self.panel.settings)?;
+        let finished_before = self.graphics.finished();
+        let pace = Pace { budget: if dragging { DRAGGING_BUDGET } else { RESTING_BUDGET }, preview: true };
+        self.graphics.draw(&mut self.imgui, pace)?;
+        if !finished_before && self.graphics.finished() {
+            // What was just recorded is on the screen; the panel's figures come a frame later.
+            self.frames_to_draw = self.frames_to_draw.max(FRAMES_AFTER_EVENT);
+        }
+        self.report();
+        Ok(())
+    }
+
+    fn report(&mut self) {
+        *self.validation.lock().unwrap_or_else(PoisonError::into_inner) =
+            self.graphics.instance().validation_messages().len();
+        let shown = (self.graphics.progress().samples, self.panel.settings.samples);
+        if shown != self.shown {
+            let [width, height] = self.panel.settings.estimator.size;
+            log::debug!("shown {}/{} points of {width}x{height}", shown.0, shown.1);
+            self.shown = shown;
+        }
+    }
+}
