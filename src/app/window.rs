@@ -181,6 +181,7 @@ impl Open {
         let Some(size) = self.graphics.fit([size.width, size.height], &mut self.imgui)? else {
             return Ok(());
         };
+        log::trace!("frame");
         self.frames_to_draw = self.frames_to_draw.saturating_sub(1);
         self.graphics.wait_for_frame()?;
 

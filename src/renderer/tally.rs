@@ -109,7 +109,6 @@ impl Tally {
             let least = self.nanoseconds_per_sample.unwrap_or(UNMEASURED_NANOSECONDS) / 8.0;
             self.nanoseconds_per_sample = Some((elapsed.as_nanos() as f64 / traced as f64).max(least));
         }
-        log::trace!("frame: {traced} samples in {elapsed:?}");
         if picture == self.picture {
             let counters = Counters::read(&frame.counters);
             self.sum.traced += traced;

@@ -1,0 +1,76 @@
+//! Which module may use which: the directions of the design.
+
+use std::path::Path;
+
+/// A module and what it may use of the crate, besides `error`.
+const ARROWS: [(&str, &[&str]); 10] = [
+    ("cli", &["settings", "scene"]),
+    ("app", &["renderer", "output", "settings", "scene", "vulkan"]),
+    ("output", &["renderer", "settings", "scene", "vulkan"]),
+    ("renderer", &["passes", "gpu_types", "settings", "scene", "vulkan"]),
+    ("passes", &["vulkan", "gpu_types"]),
+    ("gpu_types", &["scene", "settings"]),
+    ("settings", &["scene"]),
+    ("scene", &[]),
+    ("vulkan", &[]),
+    ("error", &[]),
+];
+
+/// `(module, used module)` for every path into the crate in a source text.
+fn uses(module: &str, text: &str) -> Vec<(String, String)> {
+    let code = text.lines().map(|line| line.split("//").next().unwrap_or_default());
+    code.flat_map(|line| line.split("crate::").skip(1).map(str::to_owned).collect::<Vec<_>>())
+        .map(|path| {
+            let name: String = path.chars().take_while(|letter| letter.is_alphanumeric() || *letter == '_').collect();
+            (module.to_owned(), name)
+        })
+        .collect()
+}
+
+fn forbidden(module: &str, text: &str) -> Vec<String> {
+    let (_, allowed) = ARROWS.iter().find(|(name, _)| *name == module).unwrap_or_else(|| panic!("no arrows for {module}"));
+    uses(module, text)
+        .into_iter()
+        .filter(|(from, to)| from != to && to != "error" && !allowed.contains(&to.as_str()))
+        .map(|(from, to)| format!("{from} uses {to}"))
+        .collect()
+}
+
+fn walk(folder: &Path, check: &mut impl FnMut(&Path)) {
+    for entry in std::fs::read_dir(folder).expect("a readable folder") {
+        let path = entry.expect("a readable entry").path();
+        if path.is_dir() {
+            walk(&path, check);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            check(&path);
+        }
+    }
+}
+
+/// Catches a shortcut between modules: `vulkan` that knows scenes cannot be reused, and an oracle
+/// that uses the GPU's twins inherits their mistakes.
+#[test]
+fn modules_use_only_what_the_design_allows() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut files = 0;
+    walk(&source, &mut |path| {
+        let inside = path.strip_prefix(&source).expect("it lies there");
+        let first = inside.iter().next().expect("it has a name").to_string_lossy();
+        let module = first.trim_end_matches(".rs");
+        if module == "lib" || module == "main" {
+            return;
+        }
+        let text = std::fs::read_to_string(path).expect("a readable file");
+        assert_eq!(forbidden(module, &text), Vec::<String>::new(), "{}", inside.display());
+        files += 1;
+    });
+    assert!(files > 20, "only {files} files were read");
+}
+
+/// The check above must see a forbidden path, wherever it stands.
+#[test]
+fn a_forbidden_arrow_is_found() {
+    assert_eq!(forbidden("vulkan", "use crate::scene::Scene;"), ["vulkan uses scene"]);
+    assert_eq!(forbidden("scene", "fn f(a: crate::gpu_types::Sphere) {}"), ["scene uses gpu_types"]);
+    assert!(forbidden("passes", "use crate::vulkan::Image; // not crate::scene").is_empty());
+}

@@ -1,0 +1,138 @@
+//! What the tests share: a device that validation watches, small settings, and the program itself.
+#![allow(dead_code, reason = "each test file uses a part")]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::Arc;
+use thinlens::renderer::Renderer;
+use thinlens::scene::{self, SceneRef};
+use thinlens::settings::Settings;
+use thinlens::vulkan::{Device, Instance};
+
+/// A device under validation. A test that leaves a message behind fails.
+pub struct Gpu {
+    device: Option<Arc<Device>>,
+    instance: Arc<Instance>,
+    expected: Vec<&'static str>,
+}
+
+impl Gpu {
+    /// The best device. No device, or no validation layer, fails the test.
+    pub fn new() -> Self {
+        let instance = Instance::new(true, None).expect("a Vulkan loader and the validation layer");
+        let device = Device::open(&instance, None, None).expect("a Vulkan 1.3 device");
+        Self { device: Some(device), instance, expected: Vec::new() }
+    }
+
+    pub fn device(&self) -> &Arc<Device> {
+        self.device.as_ref().expect("it is there until the end")
+    }
+
+    /// The next check wants a message that contains this, and no other.
+    pub fn expect_message(&mut self, part: &'static str) {
+        self.expected.push(part);
+    }
+
+    pub fn messages(&self) -> Vec<String> {
+        self.instance.validation_messages()
+    }
+}
+
+impl Drop for Gpu {
+    fn drop(&mut self) {
+        self.device = None;
+        if std::thread::panicking() {
+            return;
+        }
+        let messages = self.messages();
+        for part in &self.expected {
+            assert!(messages.iter().any(|message| message.contains(part)), "no message has '{part}': {messages:#?}");
+        }
+        for message in &messages {
+            let expected = self.expected.iter().any(|part| message.contains(part));
+            assert!(expected, "validation: {message}");
+        }
+    }
+}
+
+/// A built-in scene, small: 64 x 48 pixels, 8 samples.
+pub fn small(scene: &str) -> Settings {
+    let mut settings = Settings::of_scene(SceneRef::new(scene::load(scene).expect("a built-in scene")));
+    settings.estimator.size = [64, 48];
+    settings.samples = 8;
+    settings
+}
+
+/// A scene from TOML.
+pub fn scene_of(toml: &str) -> SceneRef {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("test.toml");
+    std::fs::write(&path, toml).expect("a writable temporary folder");
+    let scene = scene::load(path.to_str().expect("a plain path")).expect("a valid scene");
+    SceneRef::new(scene)
+}
+
+/// Renders from the start, and gives the film.
+pub fn film(gpu: &Gpu, settings: &Settings) -> Vec<[f32; 4]> {
+    let mut renderer = Renderer::new(gpu.device()).expect("a renderer");
+    renderer.set(settings).expect("valid settings");
+    renderer.render(|_| ()).expect("a rendering");
+    renderer.read_film().expect("a film")
+}
+
+/// The bits of a film: equal films may differ in -0 and 0, equal bits do not.
+pub fn bits(film: &[[f32; 4]]) -> Vec<[u32; 4]> {
+    film.iter().map(|texel| texel.map(f32::to_bits)).collect()
+}
+
+/// The program, with what it prints.
+pub struct Run {
+    pub code: i32,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+impl From<Output> for Run {
+    fn from(output: Output) -> Self {
+        Self {
+            code: output.status.code().expect("it was not killed"),
+            stdout: String::from_utf8(output.stdout).expect("UTF-8"),
+            stderr: String::from_utf8(output.stderr).expect("UTF-8"),
+        }
+    }
+}
+
+/// The program under test, in `folder`, with no display.
+pub fn thinlens(folder: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_thinlens"));
+    command.current_dir(folder).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
+    command
+}
+
+/// Runs it with these arguments.
+pub fn run(folder: &Path, arguments: &[&str]) -> Run {
+    thinlens(folder).args(arguments).output().expect("it starts").into()
+}
+
+/// Renders to a PNG under validation, which must succeed, and gives the file's bytes.
+pub fn render_png(folder: &Path, arguments: &[&str]) -> Vec<u8> {
+    let output: PathBuf = folder.join("render.png");
+    let run: Run = thinlens(folder)
+        .args(["render", "-o", "render.png", "--validation", "--quiet"])
+        .args(arguments)
+        .output()
+        .expect("it starts")
+        .into();
+    assert_eq!((run.code, run.stderr.as_str(), run.stdout.as_str()), (0, "", ""), "{arguments:?}");
+    std::fs::read(output).expect("the picture")
+}
+
+/// Width, height, and r, g, b bytes of a PNG.
+pub fn decode_png(bytes: &[u8]) -> ([u32; 2], Vec<[u8; 3]>) {
+    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().expect("a PNG");
+    let mut pixels = vec![0; reader.output_buffer_size().expect("a small PNG")];
+    let info = reader.next_frame(&mut pixels).expect("a PNG");
+    assert_eq!((info.color_type, info.bit_depth), (png::ColorType::Rgb, png::BitDepth::Eight));
+    let pixels = pixels.chunks_exact(3).map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+    ([info.width, info.height], pixels)
+}

@@ -1,0 +1,221 @@
+//! The film: what a picture depends on, and what it must not depend on.
+
+mod common;
+
+use common::{Gpu, bits, film, scene_of, small};
+use std::time::Duration;
+use thinlens::renderer::{Pace, Renderer};
+use thinlens::settings::Settings;
+
+/// Catches a focal distance that leaks into the pinhole: with no lens there is nothing to focus.
+#[test]
+fn a_pinhole_has_no_focal_distance() {
+    let gpu = Gpu::new();
+    let mut settings = small("version-4");
+    settings.estimator.lens.diameter = 0.0;
+    let films = [0.37, 10.0, 1e6].map(|distance| {
+        settings.estimator.lens.focal_distance = distance;
+        bits(&film(&gpu, &settings))
+    });
+    assert_eq!(films[0], films[1]);
+    assert_eq!(films[0], films[2]);
+
+    settings.estimator.lens.diameter = 0.5;
+    assert_ne!(films[0], bits(&film(&gpu, &settings)), "a lens makes a difference");
+}
+
+/// Catches state that survives from one picture to the next, and races between invocations.
+#[test]
+fn the_same_settings_give_the_same_bits_and_another_seed_does_not() {
+    let gpu = Gpu::new();
+    for jitter in [1.0, 3.0] {
+        let mut settings = small("version-4");
+        settings.estimator.jitter = jitter;
+        let first = bits(&film(&gpu, &settings));
+        assert_eq!(first, bits(&film(&gpu, &settings)), "jitter {jitter}");
+        settings.estimator.seed = 1;
+        assert_ne!(first, bits(&film(&gpu, &settings)), "jitter {jitter}");
+    }
+}
+
+/// Catches samples lost or doubled at the edges of tiles, an order of merging that follows the
+/// tiles, and a preview that changes the picture it is a preview of.
+#[test]
+fn tiles_previews_and_pauses_change_nothing() {
+    let gpu = Gpu::new();
+    for (jitter, size) in [(1.0, [64, 48]), (1.0, [37, 51]), (3.0, [37, 51]), (2.5, [5, 3])] {
+        let mut settings = small("version-4");
+        settings.estimator.jitter = jitter;
+        settings.estimator.size = size;
+        settings.samples = 21;
+        let expected = bits(&film(&gpu, &settings));
+        for preview in [false, true] {
+            // A budget of nothing: a row of workgroups a submission.
+            let pace = Pace { budget: Duration::ZERO, preview };
+            let mut renderer = Renderer::new(gpu.device()).expect("a renderer");
+            renderer.set(&settings).expect("valid settings");
+            let mut submissions = 0;
+            renderer
+                .render_at(pace, |_| {
+                    submissions += 1;
+                    if submissions % 16 == 0 {
+                        std::thread::sleep(Duration::from_millis(1));
+                    }
+                })
+                .expect("a rendering");
+            assert!(submissions >= 6, "one submission at least for each pass");
+            let got = bits(&renderer.read_film().expect("a film"));
+            assert!(got == expected, "jitter {jitter}, size {size:?}, preview {preview}");
+        }
+    }
+}
+
+/// Catches a mean that weighs batches wrongly: 8 and 8 samples are not 16 if either is off.
+#[test]
+fn another_cut_of_batches_gives_the_same_mean() {
+    let gpu = Gpu::new();
+    let mut settings = small("version-4");
+    settings.samples = 50;
+    let expected = film(&gpu, &settings);
+    for max_batch in [1, 2, 8, 64] {
+        let mut renderer = Renderer::new(gpu.device()).expect("a renderer");
+        renderer.set_max_batch(max_batch);
+        renderer.set(&settings).expect("valid settings");
+        renderer.render(|_| ()).expect("a rendering");
+        for (got, expected) in renderer.read_film().expect("a film").iter().zip(&expected) {
+            assert_eq!(got[3], 50.0);
+            for channel in 0..3 {
+                let error = (got[channel] - expected[channel]).abs() / expected[channel].abs().max(1e-3);
+                assert!(error <= 1e-5, "batches of {max_batch}: {got:?}, not {expected:?}");
+            }
+        }
+    }
+}
+
+/// Catches a raised target that starts anew, and one that counts samples twice.
+#[test]
+fn raising_the_target_goes_on_and_lowering_it_below_the_count_restarts() {
+    let gpu = Gpu::new();
+    let mut settings = small("suffern-boxes");
+    settings.samples = 64;
+    let expected = bits(&film(&gpu, &settings));
+
+    let mut renderer = Renderer::new(gpu.device()).expect("a renderer");
+    let mut go_to = |samples: u32| {
+        settings.samples = samples;
+        renderer.set(&settings).expect("valid settings");
+        let before = renderer.progress().samples;
+        renderer.render(|_| ()).expect("a rendering");
+        (before, bits(&renderer.read_film().expect("a film")))
+    };
+    assert_eq!(go_to(32).0, 0);
+    let (before, raised) = go_to(64);
+    assert_eq!(before, 32, "it goes on from where it was");
+    assert!(raised == expected);
+    let (before, lowered) = go_to(8);
+    assert_eq!(before, 0, "it starts anew");
+    assert!(lowered.iter().all(|texel| texel[3] == 8.0_f32.to_bits()));
+}
+
+/// Catches a film that keeps samples of another lens, and one that forgets them for a mere change
+/// of exposure.
+#[test]
+fn the_film_restarts_with_the_estimator_and_not_with_the_view() {
+    let gpu = Gpu::new();
+    let mut settings = small("version-4");
+    let mut renderer = Renderer::new(gpu.device()).expect("a renderer");
+    renderer.set(&settings).expect("valid settings");
+    renderer.render(|_| ()).expect("a rendering");
+    let dark = renderer.read_picture().expect("a picture");
+
+    settings.view.exposure_stops = 1.0;
+    renderer.set(&settings).expect("valid settings");
+    assert!(renderer.finished(), "the film is as good as before");
+    let bright = renderer.read_picture().expect("a picture");
+    let sum = |picture: &[u8]| picture.iter().map(|value| u64::from(*value)).sum::<u64>();
+    assert!(sum(&bright) > sum(&dark));
+
+    let changes: [fn(&mut Settings); 8] = [
+        |settings| settings.estimator.lens.diameter *= 2.0,
+        |settings| settings.estimator.lens.focal_distance *= 2.0,
+        |settings| settings.estimator.camera.eye.y += 1.0,
+        |settings| settings.estimator.camera.vfov_radians *= 0.9,
+        |settings| settings.estimator.jitter = 2.0,
+        |settings| settings.estimator.max_bounces = 0,
+        |settings| settings.estimator.seed = 7,
+        |settings| settings.estimator.scene = small("suffern-mirror").estimator.scene,
+    ];
+    for (number, change) in changes.iter().enumerate() {
+        change(&mut settings);
+        renderer.set(&settings).expect("valid settings");
+        assert_eq!(renderer.progress().samples, 0, "change {number}");
+        renderer.render(|_| ()).expect("a rendering");
+        let kept = bits(&renderer.read_film().expect("a film"));
+        assert!(kept == bits(&film(&gpu, &settings)), "change {number}");
+    }
+}
+
+/// Catches samples averaged into their start pixel whatever their film position: then every count
+/// is the same.
+#[test]
+fn a_wide_jitter_lands_in_neighbours() {
+    let gpu = Gpu::new();
+    let mut settings = small("suffern-boxes");
+    let counts = |settings: &Settings| film(&gpu, settings).iter().map(|texel| texel[3]).collect::<Vec<_>>();
+    assert!(counts(&settings).iter().all(|count| *count == 8.0));
+
+    settings.estimator.jitter = 3.0;
+    let wide = counts(&settings);
+    assert!(wide.iter().any(|count| *count > 8.0) && wide.iter().any(|count| *count < 8.0));
+    let pixel = |x: usize, y: usize| f64::from(wide[y * 64 + x]);
+    let inner: f64 = (1..47).flat_map(|y| (1..63).map(move |x| (x, y))).map(|(x, y)| pixel(x, y)).sum();
+    // As many come as go, but for chance: five standard deviations of 46 * 62 * 8 samples, of which
+    // only those near the border can leave.
+    let expected = 46.0 * 62.0 * 8.0;
+    assert!((inner - expected).abs() < 5.0 * expected.sqrt(), "{inner} samples inside, not {expected}");
+    let all: f64 = wide.iter().map(|count| f64::from(*count)).sum();
+    assert!(all < 64.0 * 48.0 * 8.0, "some leave the film");
+}
+
+/// Catches a NaN or an infinity averaged into a pixel, which would then never recover.
+#[test]
+fn samples_that_are_not_finite_are_rejected_and_reported() {
+    let gpu = Gpu::new();
+    let mut settings = small("version-4");
+    settings.estimator.scene = scene_of(
+        r#"
+        [camera]
+        eye = [0, 0, 0]
+        look_at = [0, 0, -1]
+        vfov_degrees = 60
+        lens_diameter = 0
+        focal_distance = 1
+        [background]
+        color = [0.5, 0.5, 0.5]
+        [mirror.burning]
+        color = [1e12, 1e12, 1e12]
+        kr = 1e12
+        [[sphere]]
+        center = [-0.6, 0, -3]
+        radius = 0.5
+        material = "burning"
+        [[sphere]]
+        center = [0.6, 0, -3]
+        radius = 0.5
+        material = "burning"
+        "#,
+    );
+    let scene = settings.estimator.scene.clone();
+    (settings.estimator.camera, settings.estimator.lens) = (scene.camera, scene.lens);
+    let mut renderer = Renderer::new(gpu.device()).expect("a renderer");
+    renderer.set(&settings).expect("valid settings");
+    renderer.render(|_| ()).expect("a rendering");
+    let film = renderer.read_film().expect("a film");
+    let progress = renderer.progress();
+    assert!(film.iter().flatten().all(|value| value.is_finite()));
+    let averaged: f64 = film.iter().map(|texel| f64::from(texel[3])).sum();
+    assert!(progress.rejected_samples > 0);
+    assert_eq!(progress.traced, 64 * 48 * 8);
+    assert_eq!(averaged as u64 + progress.rejected_samples, progress.traced);
+    assert!(progress.rays >= progress.traced, "at least one ray a sample");
+}

@@ -1,0 +1,86 @@
+//! The shaders' structs and their Rust twins, byte for byte.
+
+use std::mem::offset_of;
+use thinlens::gpu_types::*;
+use thinlens::passes::{Accumulate, Resolve, Trace};
+use thinlens::vulkan::StructLayout;
+
+/// A twin: name, fields with offsets, and size.
+macro_rules! twin {
+    ($glsl:literal, $rust:ident, [$($field:ident),+ $(,)?]) => {
+        ($glsl, vec![$((stringify!($field), offset_of!($rust, $field))),+], size_of::<$rust>())
+    };
+}
+
+type Twin = (&'static str, Vec<(&'static str, usize)>, usize);
+
+fn twins() -> Vec<Twin> {
+    vec![
+        twin!("Sphere", Sphere, [center, radius]),
+        twin!("Box", Box, [lower, upper]),
+        twin!("Triangle", Triangle, [vertex, edge1, edge2]),
+        twin!("Plane", Plane, [normal, offset]),
+        twin!("Material", Material, [
+            color, ka, odd_color, kd, reflectance, ks, emission, exponent, inverse_checker_size
+        ]),
+        twin!("Light", Light, [radiance, casts_shadows, position_or_direction, is_directional]),
+        twin!("Environment", Environment, [horizon, zenith, ambient]),
+        twin!("Counters", Counters, [rays, rejected_samples]),
+        twin!("Camera", Camera, [
+            eye, lens_radius, u, inverse_focal_distance, v, inverse_view_distance, w, jitter
+        ]),
+        twin!("Lattice", Lattice, [extent, origin, stride]),
+        twin!("TracePush", TracePush, [camera, lattice, seed, max_bounces, first_sample, sample_count]),
+        twin!("AccumulatePush", AccumulatePush, [lattice, seed, first_sample, jitter, reach]),
+        twin!("ResolvePush", ResolvePush, [extent, preview_stride, exposure]),
+    ]
+}
+
+fn fault(layout: &StructLayout, (name, fields, size): &Twin) -> Option<String> {
+    let members: Vec<_> = layout.members.iter().map(|(name, offset)| (name.as_str(), *offset)).collect();
+    if members != *fields {
+        return Some(format!("{name}: {members:?} in the shader, {fields:?} in Rust"));
+    }
+    match layout.stride {
+        Some(stride) if stride != *size => Some(format!("{name}: every {stride} bytes in the shader, {size} in Rust")),
+        _ => None,
+    }
+}
+
+/// Catches a field added, moved or padded on one side only. Every struct of every shader has its
+/// twin here, so a new one cannot be forgotten.
+#[test]
+fn every_struct_of_the_shaders_has_its_twin() {
+    let twins = twins();
+    let mut seen = Vec::new();
+    for shader in [Trace::SHADER, Accumulate::SHADER, Resolve::SHADER] {
+        for layout in shader.interface().structs {
+            // The block around a runtime array has the array for its one member.
+            let block = layout.members.len() == 1 && layout.members[0].1 == 0;
+            let twin = twins.iter().find(|(name, ..)| *name == layout.name);
+            match twin {
+                Some(twin) => assert_eq!(fault(&layout, twin), None, "{}", shader.name),
+                None => assert!(block, "{}: {layout:?} has no twin", shader.name),
+            }
+            seen.push(layout.name);
+        }
+        let push = shader.interface().push_size as usize;
+        let sizes = [size_of::<TracePush>(), size_of::<AccumulatePush>(), size_of::<ResolvePush>()];
+        assert!(sizes.contains(&push), "{}: {push} bytes of push constants", shader.name);
+        assert!(push <= 128, "{}: Vulkan promises 128 bytes", shader.name);
+    }
+    for (name, ..) in &twins {
+        assert!(seen.iter().any(|seen| seen == name), "no shader has {name}");
+    }
+}
+
+/// The check above must see a moved field and a wrong size.
+#[test]
+fn a_wrong_twin_is_found() {
+    let interface = Trace::SHADER.interface();
+    let material = interface.structs.iter().find(|layout| layout.name == "Material").expect("it is used");
+    let (name, mut fields, size) = twins().into_iter().find(|twin| twin.0 == "Material").expect("listed");
+    assert!(fault(material, &(name, fields.clone(), size + 16)).is_some());
+    fields[2].1 += 4;
+    assert!(fault(material, &(name, fields, size)).is_some());
+}
