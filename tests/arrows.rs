@@ -21,14 +21,16 @@ fn uses(module: &str, text: &str) -> Vec<(String, String)> {
     let code = text.lines().map(|line| line.split("//").next().unwrap_or_default());
     code.flat_map(|line| line.split("crate::").skip(1).map(str::to_owned).collect::<Vec<_>>())
         .map(|path| {
-            let name: String = path.chars().take_while(|letter| letter.is_alphanumeric() || *letter == '_').collect();
+            let name: String =
+                path.chars().take_while(|letter| letter.is_alphanumeric() || *letter == '_').collect();
             (module.to_owned(), name)
         })
         .collect()
 }
 
 fn forbidden(module: &str, text: &str) -> Vec<String> {
-    let (_, allowed) = ARROWS.iter().find(|(name, _)| *name == module).unwrap_or_else(|| panic!("no arrows for {module}"));
+    let (_, allowed) =
+        ARROWS.iter().find(|(name, _)| *name == module).unwrap_or_else(|| panic!("no arrows for {module}"));
     uses(module, text)
         .into_iter()
         .filter(|(from, to)| from != to && to != "error" && !allowed.contains(&to.as_str()))

@@ -20,15 +20,19 @@ fn twins() -> Vec<Twin> {
         twin!("Box", Box, [lower, upper]),
         twin!("Triangle", Triangle, [vertex, edge1, edge2]),
         twin!("Plane", Plane, [normal, offset]),
-        twin!("Material", Material, [
-            color, ka, odd_color, kd, reflectance, ks, emission, exponent, inverse_checker_size
-        ]),
+        twin!(
+            "Material",
+            Material,
+            [color, ka, odd_color, kd, reflectance, ks, emission, exponent, inverse_checker_size]
+        ),
         twin!("Light", Light, [radiance, casts_shadows, position_or_direction, is_directional]),
         twin!("Environment", Environment, [horizon, zenith, ambient]),
         twin!("Counters", Counters, [rays, rejected_samples]),
-        twin!("Camera", Camera, [
-            eye, lens_radius, u, inverse_focal_distance, v, inverse_view_distance, w, jitter
-        ]),
+        twin!(
+            "Camera",
+            Camera,
+            [eye, lens_radius, u, inverse_focal_distance, v, inverse_view_distance, w, jitter]
+        ),
         twin!("Lattice", Lattice, [extent, origin, stride]),
         twin!("TracePush", TracePush, [camera, lattice, seed, max_bounces, first_sample, sample_count]),
         twin!("AccumulatePush", AccumulatePush, [lattice, seed, first_sample, jitter, reach]),
@@ -42,7 +46,9 @@ fn fault(layout: &StructLayout, (name, fields, size): &Twin) -> Option<String> {
         return Some(format!("{name}: {members:?} in the shader, {fields:?} in Rust"));
     }
     match layout.stride {
-        Some(stride) if stride != *size => Some(format!("{name}: every {stride} bytes in the shader, {size} in Rust")),
+        Some(stride) if stride != *size => {
+            Some(format!("{name}: every {stride} bytes in the shader, {size} in Rust"))
+        }
         _ => None,
     }
 }

@@ -36,7 +36,8 @@ fn emitter(center: [f64; 3], radius: f64, diameter: f32, focal_distance: f32, sa
 
 /// Sum, centroid, and the diameter of a disc of the same second moments.
 fn spot(film: &[[f32; 4]]) -> (f64, [f64; 2], f64) {
-    let pixels = || (0..120_u32).flat_map(|y| (0..160_u32).map(move |x| [f64::from(x) + 0.5, f64::from(y) + 0.5]));
+    let pixels =
+        || (0..120_u32).flat_map(|y| (0..160_u32).map(move |x| [f64::from(x) + 0.5, f64::from(y) + 0.5]));
     let light = |index: usize| f64::from(film[index][0]);
     let sum: f64 = (0..film.len()).map(light).sum();
     let mean = |axis: usize| pixels().enumerate().map(|(i, at)| light(i) * at[axis]).sum::<f64>() / sum;

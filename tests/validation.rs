@@ -32,7 +32,8 @@ fn record_two_passes(gpu: &Gpu, barrier: bool) {
     let size = size_of::<Counters>() as u64;
     let counters = Arc::new(Buffer::new(device, "counters", size, Residence::Device).expect("a buffer"));
     let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene)).expect("a scene");
-    let (trace, accumulate) = (Trace::new(device, &scene).expect("trace"), Accumulate::new(device).expect("accumulate"));
+    let (trace, accumulate) =
+        (Trace::new(device, &scene).expect("trace"), Accumulate::new(device).expect("accumulate"));
     let traced = trace.bind(&scene, &batch, &counters).expect("bindings");
     let accumulated = accumulate.bind(&batch, &film).expect("bindings");
 
@@ -84,7 +85,11 @@ fn a_missing_layer_is_a_failure() {
         .output();
     let run: common::Run = output.expect("it starts").into();
     assert_eq!(run.code, 1, "{}", run.stderr);
-    assert!(run.stderr.contains("VK_LAYER_KHRONOS_validation") && run.stderr.contains("./setup.sh"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("VK_LAYER_KHRONOS_validation") && run.stderr.contains("./setup.sh"),
+        "{}",
+        run.stderr
+    );
     assert!(!folder.path().join("out.png").exists());
 }
 
@@ -95,8 +100,20 @@ fn every_scene_renders_without_a_message() {
     for scene in ["version-4", "suffern-boxes", "suffern-mirror"] {
         for jitter in ["0", "1", "3"] {
             for output in ["out.png", "out.exr"] {
-                let arguments =
-                    ["render", scene, "-o", output, "-n", "20", "--size", "50x40", "--jitter", jitter, "--validation", "-q"];
+                let arguments = [
+                    "render",
+                    scene,
+                    "-o",
+                    output,
+                    "-n",
+                    "20",
+                    "--size",
+                    "50x40",
+                    "--jitter",
+                    jitter,
+                    "--validation",
+                    "-q",
+                ];
                 let run = run(folder.path(), &arguments);
                 assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{scene}, jitter {jitter}");
             }

@@ -205,7 +205,7 @@ impl From<ColorInput> for Color {
         match input {
             ColorInput::Plain(color) => Self(color.0, None),
             ColorInput::Checker(checker) => {
-                Self(checker.even.0, Some(Checker { size: checker.size.0, odd_color: checker.odd.0 }))
+                Self(checker.even.0, Some(Checker { size: checker.size.f32(), odd_color: checker.odd.0 }))
             }
         }
     }
@@ -243,7 +243,7 @@ impl SceneFile {
             planes: Vec::new(),
         };
         for table in &self.sphere {
-            let shape = Sphere { center: table.center.0, radius: table.radius.0 };
+            let shape = Sphere { center: table.center.0, radius: table.radius.f32() };
             let material = find(&table.material)?;
             scene.spheres.push(Shaded { shape, material });
         }
@@ -349,8 +349,8 @@ fn camera(table: &Spanned<CameraTable>, size: [u32; 2]) -> Result<(Camera, Lens)
     let vfov_radians = match (&table.vfov_degrees, &table.view_distance, &table.pixel_size) {
         (Some(degrees), None, None) => degrees.0.to_radians(),
         (None, Some(distance), Some(pixel)) => {
-            let half_height = 0.5 * f64::from(size[1]) * f64::from(pixel.0);
-            2.0 * (half_height / f64::from(distance.0)).atan()
+            let half_height = 0.5 * f64::from(size[1]) * pixel.f64();
+            2.0 * (half_height / distance.f64()).atan()
         }
         _ => {
             let message = "the camera needs either vfov_degrees, or view_distance and pixel_size";
@@ -361,7 +361,7 @@ fn camera(table: &Spanned<CameraTable>, size: [u32; 2]) -> Result<(Camera, Lens)
     if let Some(message) = camera.fault() {
         return Err(fault(span, message));
     }
-    let lens = Lens { diameter: table.lens_diameter.0, focal_distance: table.focal_distance.0 };
+    let lens = Lens { diameter: table.lens_diameter.0, focal_distance: table.focal_distance.f32() };
     Ok((camera, lens))
 }
 

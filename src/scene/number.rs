@@ -11,7 +11,7 @@ const LARGEST: f64 = 1e12;
 
 #[derive(Deserialize)]
 #[serde(try_from = "f64")]
-pub(super) struct Positive(pub(super) f32);
+pub(super) struct Positive(f64);
 
 #[derive(Deserialize, Default)]
 #[serde(try_from = "f64")]
@@ -42,10 +42,20 @@ impl TryFrom<f64> for Positive {
 
     fn try_from(value: f64) -> Result<Self, String> {
         if (SMALLEST_POSITIVE..=LARGEST).contains(&value) {
-            Ok(Self(value as f32))
+            Ok(Self(value))
         } else {
             Err(format!("{value} must be from {SMALLEST_POSITIVE:e} to {LARGEST:e}"))
         }
+    }
+}
+
+impl Positive {
+    pub(super) fn f32(&self) -> f32 {
+        self.0 as f32
+    }
+
+    pub(super) fn f64(&self) -> f64 {
+        self.0
     }
 }
 

@@ -46,7 +46,10 @@ impl Drop for Gpu {
         }
         let messages = self.messages();
         for part in &self.expected {
-            assert!(messages.iter().any(|message| message.contains(part)), "no message has '{part}': {messages:#?}");
+            assert!(
+                messages.iter().any(|message| message.contains(part)),
+                "no message has '{part}': {messages:#?}"
+            );
         }
         for message in &messages {
             let expected = self.expected.iter().any(|part| message.contains(part));
@@ -105,7 +108,11 @@ impl From<Output> for Run {
 /// The program under test, in `folder`, with no display.
 pub fn thinlens(folder: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_thinlens"));
-    command.current_dir(folder).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
+    command
+        .current_dir(folder)
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY")
+        .env_remove("WAYLAND_SOCKET");
     command
 }
 

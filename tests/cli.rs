@@ -1,0 +1,239 @@
+//! The program as a user or a CI job runs it.
+
+mod common;
+
+use common::{decode_png, render_png, run, thinlens};
+use std::path::Path;
+
+const SMALL: [&str; 4] = ["--size", "48x36", "--samples", "9"];
+
+fn render(folder: &Path, more: &[&str]) -> Vec<u8> {
+    render_png(folder, &[&SMALL[..], more].concat())
+}
+
+/// Catches flags that are parsed and then forgotten.
+#[test]
+fn flags_change_the_picture_and_only_as_they_should() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    let plain = render(folder, &[]);
+    assert_eq!(plain, render(folder, &["version-4"]), "version-4 is the default");
+    assert_eq!(decode_png(&plain).0, [48, 36]);
+    for more in [
+        &["suffern-boxes"][..],
+        &["--lens-diameter", "1.5"],
+        &["--focal-distance", "4"],
+        &["--jitter", "0"],
+        &["--max-bounces", "0"],
+        &["--seed", "1"],
+        &["--samples", "10"],
+        &["--exposure", "1"],
+    ] {
+        // The later --samples wins.
+        let arguments = if more[0] == "--samples" { ["--size", "48x36"].as_slice() } else { &SMALL };
+        assert_ne!(plain, render_png(folder, &[arguments, more].concat()), "{more:?}");
+    }
+    let pinhole = |distance| render(folder, &["--lens-diameter", "0", "--focal-distance", distance]);
+    assert_eq!(pinhole("3"), pinhole("77"));
+}
+
+/// Catches a picture that depends on the number of threads.
+#[test]
+fn one_thread_and_two_give_the_same_bytes() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let picture = |threads: &str| {
+        let output = thinlens(folder.path())
+            .args(["render", "-o", "out.exr", "-q", "--jitter", "3"])
+            .args(SMALL)
+            .env("LP_NUM_THREADS", threads)
+            .output()
+            .expect("it starts");
+        assert!(output.status.success());
+        std::fs::read(folder.path().join("out.exr")).expect("the picture")
+    };
+    assert_eq!(picture("1"), picture("2"));
+}
+
+/// Catches an EXR without its counts, with channels mixed up, or encoded like a PNG.
+#[test]
+fn an_exr_holds_linear_values_and_counts() {
+    use exr::prelude::{FlatSamples, read_first_flat_layer_from_file};
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let png = decode_png(&render(folder.path(), &[])).1;
+    let run = run(folder.path(), &[&["render", "-q", "-o", "out.exr"], &SMALL[..]].concat());
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let image = read_first_flat_layer_from_file(folder.path().join("out.exr")).expect("an EXR");
+    let layer = &image.layer_data;
+    assert_eq!((layer.size.0, layer.size.1), (48, 36));
+    let channel = |name: &str| {
+        let found = layer.channel_data.list.iter().find(|channel| channel.name.eq(name));
+        match &found.unwrap_or_else(|| panic!("no channel {name}")).sample_data {
+            FlatSamples::F32(values) => values.clone(),
+            _ => panic!("{name} is not f32"),
+        }
+    };
+    assert!(channel("count").iter().all(|count| *count == 9.0));
+    let channels = ["R", "G", "B"].map(channel);
+    for (index, pixel) in png.iter().enumerate() {
+        for (encoded, linear) in pixel.iter().zip(channels.each_ref().map(|channel| channel[index])) {
+            let linear = linear.clamp(0.0, 1.0);
+            let srgb =
+                if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
+            assert!((255.0 * srgb - f32::from(*encoded)).abs() < 0.52, "{linear} as {encoded}");
+        }
+    }
+}
+
+/// Catches figures that are missing or do not fit each other.
+#[test]
+fn stats_say_what_was_done() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let run =
+        run(folder.path(), &[&["render", "-o", "out.png", "--stats", "stats.json"], &SMALL[..]].concat());
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(run.stdout.contains("out.png") && run.stdout.contains("48x36"), "{}", run.stdout);
+    let text = std::fs::read_to_string(folder.path().join("stats.json")).expect("the figures");
+    let stats: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(stats["scene"], "version-4");
+    assert_eq!((&stats["width"], &stats["height"]), (&48.into(), &36.into()));
+    assert_eq!(stats["samples_per_pixel"], 9);
+    assert_eq!(stats["samples"], 48 * 36 * 9);
+    assert_eq!(stats["rejected_samples"], 0);
+    assert!(stats["rays"].as_u64() > stats["samples"].as_u64());
+    let rate =
+        stats["samples"].as_f64().expect("a number") / stats["seconds"].as_f64().expect("a number") / 1e6;
+    assert!((rate / stats["msamples_per_second"].as_f64().expect("a number") - 1.0).abs() < 1e-9);
+    for text in ["device", "driver"] {
+        assert!(stats[text].as_str().is_some_and(|text| !text.is_empty()));
+    }
+}
+
+/// Catches wrong use that exits with 0 or 1, that panics, or that does not say what to do.
+#[test]
+fn wrong_use_exits_with_2_and_says_what_is_right() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for (arguments, part) in [
+        (&["render"][..], "--output"),
+        (&["render", "-o", "out.jpg"], ".png or .exr"),
+        (&["render", "verson-4", "-o", "out.png"], "did you mean version-4?"),
+        (&["render", "-o", "out.png", "--size", "0x10"], "from 1 to 16384"),
+        (&["render", "-o", "out.png", "--size", "20000x10"], "from 1 to 16384"),
+        (&["render", "-o", "out.png", "--size", "10"], "1280x720"),
+        (&["render", "-o", "out.png", "--samples", "0"], "from 1 to 16777216"),
+        (&["render", "-o", "out.png", "--samples", "16777217"], "from 1 to 16777216"),
+        (&["render", "-o", "out.png", "--samples", "-1"], "-1"),
+        (&["render", "-o", "out.png", "--lens-diameter", "-1"], "lens-diameter is -1"),
+        (&["render", "-o", "out.png", "--lens-diameter", "NaN"], "lens-diameter is NaN"),
+        (&["render", "-o", "out.png", "--focal-distance", "0"], "focal-distance is 0"),
+        (&["render", "-o", "out.png", "--focal-distance", "-2"], "focal-distance is -2"),
+        (&["render", "-o", "out.png", "--focal-distance", "inf"], "focal-distance is inf"),
+        (&["render", "-o", "out.png", "--jitter", "16"], "from 0 to 15"),
+        (&["render", "-o", "out.png", "--max-bounces", "65"], "from 0 to 64"),
+        (&["render", "-o", "out.png", "--device", "no such device"], "there are: 0 "),
+        (&["view", "--samples", "0"], "from 1 to 16777216"),
+        (&["rendr"], "render"),
+    ] {
+        let run = run(folder.path(), arguments);
+        assert_eq!(run.code, 2, "{arguments:?}: {}", run.stderr);
+        assert!(run.stderr.contains(part), "{arguments:?}: '{}' does not say '{part}'", run.stderr);
+        assert_eq!(run.stdout, "", "{arguments:?}");
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).expect("readable").count(), 0, "nothing was written");
+}
+
+/// Catches failures that exit with 0, take two lines, or leave half a file.
+#[test]
+fn failures_exit_with_1_and_one_line() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    std::fs::write(folder.path().join("bad.toml"), "[camera]\neye = 7\n").expect("writable");
+    std::fs::create_dir(folder.path().join("folder.png")).expect("writable");
+    let before = std::fs::read_dir(folder.path()).expect("readable").count();
+    for (arguments, part) in [
+        (&["render", "none.toml", "-o", "out.png"][..], "cannot read none.toml"),
+        (&["render", "bad.toml", "-o", "out.png"], "bad.toml:2: "),
+        (&["render", "-n", "1", "-s", "8x8", "-q", "-o", "none/out.png"], "cannot write none/out.png"),
+        (&["render", "-n", "1", "-s", "8x8", "-q", "-o", "folder.png"], "cannot write folder.png"),
+        (&["render", "-n", "1", "-s", "8x8", "-q", "-o", "none/out.exr"], "cannot write none/out.exr"),
+    ] {
+        let run = run(folder.path(), arguments);
+        assert_eq!(run.code, 1, "{arguments:?}: {}", run.stderr);
+        assert!(run.stderr.contains(part), "{arguments:?}: '{}' does not say '{part}'", run.stderr);
+        assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).expect("readable").count(), before, "nothing is left behind");
+}
+
+/// Catches "no GPU" that passes: without a driver there is no picture and no success.
+#[test]
+fn no_device_is_a_failure_that_says_what_to_install() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for arguments in [&["render", "-o", "out.png"][..], &["devices"]] {
+        let mut command = thinlens(folder.path());
+        for variable in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"] {
+            command.env(variable, folder.path().join("none.json"));
+        }
+        let run: common::Run = command.args(arguments).output().expect("it starts").into();
+        assert_eq!(run.code, 1, "{}", run.stderr);
+        assert!(run.stderr.contains("lavapipe") && run.stderr.contains("./setup.sh"), "{}", run.stderr);
+    }
+    assert!(!folder.path().join("out.png").exists());
+}
+
+/// Catches lists that are empty, and a device that cannot be named by what the list says.
+#[test]
+fn scenes_and_devices_are_listed_and_can_be_named() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let scenes = run(folder.path(), &["scenes"]);
+    assert_eq!(scenes.code, 0);
+    for scene in ["version-4", "suffern-boxes", "suffern-mirror"] {
+        assert!(scenes.stdout.contains(scene));
+    }
+    let devices = run(folder.path(), &["devices"]);
+    assert_eq!(devices.code, 0, "{}", devices.stderr);
+    let first = devices.stdout.lines().next().expect("a device");
+    let (index, rest) = first.split_once("  ").expect("index and name");
+    let name = rest.split(" (").next().expect("a name").to_uppercase();
+    for device in [index, &name] {
+        render(folder.path(), &["--device", device]);
+    }
+}
+
+/// Catches a viewer that fails where there is no display, instead of giving a picture.
+#[test]
+fn with_no_display_the_viewer_renders_to_a_file() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let run = run(folder.path(), &["view", "suffern-boxes", "--size", "40x30", "--validation"]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(run.stderr.contains("no display"), "{}", run.stderr);
+    let path = folder.path().join("thinlens.png");
+    assert!(run.stdout.contains(path.to_str().expect("a plain path")), "{}", run.stdout);
+    assert!(run.stdout.contains("thinlens render suffern-boxes"), "{}", run.stdout);
+    assert_eq!(decode_png(&std::fs::read(path).expect("the picture")).0, [40, 30]);
+}
+
+/// Catches help that no longer mentions an option.
+#[test]
+fn help_teaches() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let help = run(folder.path(), &["--help"]);
+    assert_eq!(help.code, 0);
+    assert!(help.stdout.contains("Try:") && help.stdout.contains("thinlens render -o picture.png"));
+    let help = run(folder.path(), &["render", "--help"]).stdout;
+    for option in [
+        "--output",
+        "--samples",
+        "--size",
+        "--lens-diameter",
+        "--focal-distance",
+        "--jitter",
+        "--max-bounces",
+        "--seed",
+        "--exposure",
+        "--stats",
+        "--device",
+        "--validation",
+        "--quiet",
+    ] {
+        assert!(help.contains(option), "{option}");
+    }
+}

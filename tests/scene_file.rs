@@ -1,0 +1,158 @@
+//! Scene files: what they mean, and where their errors point.
+
+use thinlens::error::Error;
+use thinlens::scene::{self, BUILTINS, LightKind};
+
+/// A valid file; every error below is one line changed or added.
+const VALID: &str = r#"size = [64, 48]
+[camera]
+eye = [0, 0, 0]
+look_at = [0, 0, -1]
+vfov_degrees = 60
+lens_diameter = 0.1
+focal_distance = 5
+[ambient]
+radiance = 1
+[[point]]
+position = [0, 5, 0]
+radiance = 2
+[matte.red]
+ka = 0.5
+kd = 0.5
+color = [1, 0, 0]
+[phong.blue]
+ka = 0.5
+kd = 0.5
+ks = 0.2
+exponent = 10
+color = { even = [0, 0, 1], odd = [1, 1, 1], size = 2 }
+[[sphere]]
+center = [0, 0, -5]
+radius = 1
+material = "red"
+[[triangle]]
+vertices = [[0, 0, -9], [1, 0, -9], [0, 1, -9]]
+material = "blue"
+"#;
+
+fn load(text: &str) -> Result<scene::Scene, Error> {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("test.toml");
+    std::fs::write(&path, text).expect("a writable temporary folder");
+    scene::load(path.to_str().expect("a plain path"))
+}
+
+/// The message of an error, which must name the file and the line that `at` stands in.
+fn error_at(at: &str, text: &str) -> String {
+    let wanted = text.find(at).map(|start| text[..start].matches('\n').count() + 1).expect("it stands there");
+    match load(text).expect_err("the file is wrong") {
+        Error::Scene { file, line, message } => {
+            assert!(file.ends_with("test.toml"), "{file}");
+            assert_eq!(line, wanted, "{message}");
+            assert!(!message.contains('\n'), "{message}");
+            message
+        }
+        other => panic!("{other}"),
+    }
+}
+
+/// Catches keys that are read into the wrong field.
+#[test]
+fn a_file_means_what_it_says() {
+    let scene = load(VALID).expect("valid");
+    assert_eq!(scene.name, "test");
+    assert_eq!(scene.size, [64, 48]);
+    assert_eq!((scene.lens.diameter, scene.lens.focal_distance), (0.1, 5.0));
+    assert!((scene.camera.vfov_radians - 60_f64.to_radians()).abs() < 1e-12);
+    assert_eq!(scene.lights.len(), 1);
+    assert!(matches!(scene.lights[0].kind, LightKind::Point(at) if at.to_array() == [0.0, 5.0, 0.0]));
+    let red = &scene.materials[scene.spheres[0].material as usize];
+    assert_eq!(red.color.to_array(), [1.0, 0.0, 0.0]);
+    let blue = &scene.materials[scene.triangles[0].material as usize];
+    assert_eq!((blue.ka, blue.kd, blue.ks, blue.exponent), (0.5, 0.5, 0.2, 10.0));
+    assert_eq!(blue.checker.expect("a checker").size, 2.0);
+    assert_eq!(blue.checker.expect("a checker").odd_color.to_array(), [1.0; 3]);
+}
+
+/// Catches errors that point nowhere, and mistakes that pass as something else.
+#[test]
+fn an_error_names_its_line_and_what_would_be_right() {
+    let with = |old: &str, new: &str| {
+        assert!(VALID.contains(old));
+        VALID.replacen(old, new, 1)
+    };
+    for (at, text, part) in [
+        ("vfov_degres", with("vfov_degrees = 60", "vfov_degres = 60"), "vfov_degrees"),
+        ("radios", with("radius = 1\n", "radius = 1\nradios = 2\n"), "radios"),
+        ("[[cone", format!("{VALID}[[cone]]\nradius = 1\n"), "cone"),
+        ("= 180", with("= 60", "= 180"), "175"),
+        ("= -0.1", with("= 0.1", "= -0.1"), "from 0"),
+        ("= 0e0", with("focal_distance = 5", "focal_distance = 0e0"), "must be from"),
+        ("= nan", with("focal_distance = 5", "focal_distance = nan"), "must be from"),
+        ("= -1\n", with("radius = 1\n", "radius = -1\n"), "must be from"),
+        ("\"rde\"", with("\"red\"", "\"rde\""), "blue, red"),
+        ("[[0, 0, -9]", with("[1, 0, -9]", "[0, 0, -9]"), "one line"),
+        ("[1, 0]", with("[1, 0, 0]", "[1, 0]"), "[r, g, b]"),
+        ("[camera]", with("vfov_degrees = 60\n", ""), "vfov_degrees, or view_distance"),
+        ("[camera]", with("look_at = [0, 0, -1]", "look_at = [0, 0, 0]"), "same point"),
+        ("[camera]", with("look_at = [0, 0, -1]", "look_at = [0, -1, 0]"), "line of sight"),
+        ("[64, 0]", with("[64, 48]", "[64, 0]"), "from 1 to 16384"),
+        ("[phong.red]", with("[phong.blue]", "[phong.red]"), "another material called 'red'"),
+        ("[matte.red\n", with("[matte.red]", "[matte.red"), ""),
+        ("", String::new(), "camera"),
+    ] {
+        let message = error_at(at, &text);
+        assert!(message.contains(part), "{at}: '{message}' does not say '{part}'");
+    }
+}
+
+/// Catches a file whose reading panics: every prefix of a valid one is fine or an error.
+#[test]
+fn no_prefix_of_a_file_panics() {
+    for end in 0..VALID.len() {
+        let _ = load(&VALID[..end]);
+    }
+}
+
+/// Catches a built-in that strays from the figures it claims to be.
+#[test]
+fn the_built_in_scenes_are_those_of_the_book() {
+    let boxes = scene::load("suffern-boxes").expect("a built-in");
+    assert_eq!(boxes.size, [400, 300]);
+    assert!((boxes.camera.view_distance_pixels(300) - 800.0).abs() < 1e-9, "k is 800 pixels");
+    assert_eq!((boxes.lens.diameter, boxes.lens.focal_distance), (2.0, 74.0));
+    assert_eq!(boxes.boxes.len(), 3);
+    // The focal plane lies on the front of the middle box.
+    let depth = boxes.camera.frame().axial_depth(boxes.camera.eye, boxes.boxes[1].shape.upper);
+    assert!((depth - 74.0).abs() < 1e-9);
+
+    let mirror = scene::load("suffern-mirror").expect("a built-in");
+    assert_eq!(mirror.size, [450, 300]);
+    assert!((mirror.camera.view_distance_pixels(300) - 600.0).abs() < 1e-9, "k is 600 pixels");
+    // The red plane lies on the focal plane, 100 along the axis, and across it.
+    let (camera, red) = (&mirror.camera, mirror.planes[1].shape);
+    let depth = camera.frame().axial_depth(camera.eye, red.point);
+    assert!((depth - 100.0).abs() < 1e-4, "{depth}");
+    assert!(red.normal.as_dvec3().normalize().dot(camera.frame().w()) > 1.0 - 1e-12);
+
+    let version_4 = scene::load("version-4").expect("a built-in");
+    assert!(version_4.spheres.len() >= 10 && !version_4.triangles.is_empty() && version_4.boxes.len() >= 3);
+}
+
+/// Catches a misspelt name that gives no hint, and a built-in that does not load.
+#[test]
+fn scenes_are_found_by_name() {
+    for builtin in BUILTINS {
+        assert_eq!(scene::load(builtin.name).expect("it is built in").name, builtin.name);
+    }
+    for (name, hint) in
+        [("version4", "version-4"), ("boxes", "suffern-boxes"), ("zzz", "the built-in ones are")]
+    {
+        let error = scene::load(name).expect_err("no such scene");
+        assert_eq!(error.exit_code(), 2);
+        assert!(error.to_string().contains(hint), "{error}");
+    }
+    let error = scene::load("nowhere/scene.toml").expect_err("no such file");
+    assert_eq!(error.exit_code(), 1);
+    assert!(error.to_string().contains("nowhere/scene.toml"), "{error}");
+}
