@@ -112,7 +112,8 @@ impl Viewer {
         if let Some(shown) = line.split("shown ").nth(1) {
             let (samples, target) = shown.split_once('/').expect("two numbers");
             let target = target.split(' ').next().expect("a number");
-            *self.shown.borrow_mut() = (samples.parse().expect("a number"), target.parse().expect("a number"));
+            *self.shown.borrow_mut() =
+                (samples.parse().expect("a number"), target.parse().expect("a number"));
             self.history.borrow_mut().push(self.shown.borrow().0);
         }
         Some(line)
@@ -189,8 +190,10 @@ impl Viewer {
         let reply = self.connection.get_image(ImageFormat::Z_PIXMAP, self.root, 0, 0, width, height, !0);
         let data = reply.expect("a request").reply().expect("a screenshot").data;
         let rows = data.chunks_exact(4 * usize::from(width));
-        rows.flat_map(|row| row[4 * PICTURE_LEFT..].chunks_exact(4).map(|pixel| [pixel[2], pixel[1], pixel[0]]))
-            .collect()
+        rows.flat_map(|row| {
+            row[4 * PICTURE_LEFT..].chunks_exact(4).map(|pixel| [pixel[2], pixel[1], pixel[0]])
+        })
+        .collect()
     }
 
     /// Waits until the screen shows what `render` gives, but for `tolerance` levels of a channel.
@@ -213,9 +216,12 @@ impl Viewer {
 
     /// Asks the window to close, as a window manager does, and waits for the end.
     fn close(mut self) {
-        let atom = |name: &[u8]| self.connection.intern_atom(false, name).expect("a request").reply().expect("an atom").atom;
+        let atom = |name: &[u8]| {
+            self.connection.intern_atom(false, name).expect("a request").reply().expect("an atom").atom
+        };
         let (protocols, delete) = (atom(b"WM_PROTOCOLS"), atom(b"WM_DELETE_WINDOW"));
-        let windows = self.connection.query_tree(self.root).expect("a request").reply().expect("the windows").children;
+        let windows =
+            self.connection.query_tree(self.root).expect("a request").reply().expect("the windows").children;
         for window in windows {
             let event = ClientMessageEvent::new(32, window, protocols, [delete, 0, 0, 0, 0]);
             self.connection.send_event(false, window, EventMask::NO_EVENT, event).expect("a request");

@@ -1,0 +1,148 @@
+//! What it costs to trace and accumulate in two passes rather than in one kernel.
+//!
+//! `cargo bench --bench two_pass` renders one 16-sample batch after another of a built-in scene, in
+//! turn with the two passes and with `fused.comp`, which adds to the film itself, and prints the
+//! medians of the device's own times and their ratio.
+
+use glslang::include::{IncludeHandler, IncludeResult, IncludeType};
+use glslang::{
+    Compiler, CompilerOptions, Program, Shader as Source, ShaderInput, ShaderSource, ShaderStage,
+    SourceLanguage, SpirvVersion, Target, VulkanVersion,
+};
+use std::path::Path;
+use std::sync::Arc;
+use thinlens::error::Result;
+use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush};
+use thinlens::passes::{Accumulate, SceneBuffers, Trace};
+use thinlens::renderer::schedule::Pass;
+use thinlens::scene::{self, SceneRef};
+use thinlens::settings::Settings;
+use thinlens::vulkan::{
+    BindingSet, Buffer, Commands, ComputePipeline, Device, Image, Instance, Recording, Residence, Shader,
+    Timer,
+};
+
+const SIZE: [u32; 2] = [640, 480];
+const SAMPLES: u32 = 16;
+const ROUNDS: usize = 21;
+
+struct Includes;
+
+impl IncludeHandler for Includes {
+    fn include(&mut self, _: IncludeType, name: &str, _: &str, _: usize) -> Option<IncludeResult> {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders/include").join(name);
+        Some(IncludeResult { name: name.into(), data: std::fs::read_to_string(path).ok()? })
+    }
+}
+
+fn fused_shader() -> Shader {
+    let compiler = Compiler::acquire().expect("glslang");
+    let source = ShaderSource::from(include_str!("fused.comp"));
+    let options = CompilerOptions {
+        source_language: SourceLanguage::GLSL,
+        target: Target::Vulkan { version: VulkanVersion::Vulkan1_3, spirv_version: SpirvVersion::SPIRV1_6 },
+        ..CompilerOptions::default()
+    };
+    let mut includes = Includes;
+    let defines = None::<&[(&str, Option<&str>)]>;
+    let input = ShaderInput::new(&source, ShaderStage::Compute, &options, defines, Some(&mut includes));
+    let shader = Source::new(compiler, input.expect("a target")).parse().expect("fused.comp compiles");
+    let mut program = Program::new(compiler);
+    program.add_shader(&shader);
+    let words = program.compile(ShaderStage::Compute).expect("fused.comp links");
+    let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+    Shader { name: "fused", spirv: bytes.leak() }
+}
+
+/// The device's time for what `record` records, in seconds.
+fn time(commands: &mut Commands, timer: &Timer, record: impl FnOnce(&mut Recording<'_>)) -> Result<f64> {
+    let mut recording = commands.begin()?;
+    recording.start(timer);
+    record(&mut recording);
+    recording.stop(timer);
+    recording.submit()?;
+    commands.wait()?;
+    Ok(timer.elapsed()?.expect("a queue with a clock").as_secs_f64())
+}
+
+fn median(times: &mut [f64]) -> f64 {
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 2]
+}
+
+fn measure(device: &Arc<Device>, name: &str, fused: Shader) -> Result<()> {
+    let mut settings = Settings::of_scene(SceneRef::new(scene::load(name)?));
+    settings.estimator.size = SIZE;
+    let estimator = &settings.estimator;
+    let batch = Arc::new(Image::rgba32f(device, "batch", SIZE)?);
+    let film = Arc::new(Image::rgba32f(device, "film", SIZE)?);
+    let counters =
+        Arc::new(Buffer::new(device, "counters", size_of::<Counters>() as u64, Residence::Device)?);
+    let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene))?;
+    let (trace, accumulate) = (Trace::new(device, &scene)?, Accumulate::new(device)?);
+    let (traced, accumulated) = (trace.bind(&scene, &batch, &counters)?, accumulate.bind(&batch, &film)?);
+    let fused = ComputePipeline::new(device, fused, scene.constants())?;
+    let fused_bindings = BindingSet::new(&fused, &scene.bindings(&film, &counters))?;
+
+    let mut commands = Commands::new(device)?;
+    let mut recording = commands.begin()?;
+    recording.clear(&batch);
+    recording.clear(&film);
+    recording.submit()?;
+    let timer = Timer::new(device)?;
+    let (mut two, mut one) = (Vec::new(), Vec::new());
+    for round in 0..=ROUNDS {
+        let first_sample = SAMPLES * u32::try_from(round).expect("few rounds");
+        let lattice = Pass::whole(first_sample, u32::MAX, SAMPLES).lattice(SIZE);
+        let push = TracePush {
+            camera: Camera::new(estimator),
+            lattice,
+            seed: 0,
+            max_bounces: estimator.max_bounces,
+            first_sample,
+            sample_count: SAMPLES,
+        };
+        let merge = AccumulatePush { lattice, seed: 0, first_sample, jitter: estimator.jitter, reach: 0 };
+        let two_passes = time(&mut commands, &timer, |recording| {
+            trace.record(recording, &traced, &push, SIZE);
+            recording.barrier();
+            accumulate.record(recording, &accumulated, &merge, SIZE);
+        })?;
+        let one_kernel = time(&mut commands, &timer, |recording| {
+            recording.dispatch(&fused, &fused_bindings, bytemuck::bytes_of(&push), SIZE);
+        })?;
+        // The first round compiles.
+        if round > 0 {
+            two.push(two_passes);
+            one.push(one_kernel);
+        }
+    }
+    let (two, one) = (median(&mut two), median(&mut one));
+    let rate = |seconds: f64| f64::from(SIZE[0] * SIZE[1] * SAMPLES) / seconds / 1e6;
+    println!(
+        "{name:16} two passes {:7.2} ms ({:5.1} M samples/s), one kernel {:7.2} ms ({:5.1} M samples/s), ratio {:.3}",
+        1e3 * two,
+        rate(two),
+        1e3 * one,
+        rate(one),
+        two / one
+    );
+    Ok(())
+}
+
+fn main() -> Result<()> {
+    let instance = Instance::new(false, None)?;
+    let device = Device::open(&instance, std::env::var("THINLENS_DEVICE").ok().as_deref(), None)?;
+    println!(
+        "{} ({}), {}x{}, {SAMPLES} samples, {ROUNDS} rounds",
+        device.info().name,
+        device.info().driver,
+        SIZE[0],
+        SIZE[1]
+    );
+    let fused = fused_shader();
+    for builtin in scene::BUILTINS {
+        measure(&device, builtin.name, fused)?;
+    }
+    Ok(())
+}
