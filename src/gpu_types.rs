@@ -147,6 +147,13 @@ pub struct ResolvePush {
     pub exposure: f32,
 }
 
+impl Counters {
+    /// Reads them from the start of a buffer's bytes.
+    pub fn from_bytes(bytes: &[u8]) -> Self {
+        bytemuck::pod_read_unaligned(&bytes[..size_of::<Self>()])
+    }
+}
+
 /// A scene's buffers, in the shaders' order of shapes: spheres, boxes, triangles, planes.
 #[derive(Debug)]
 pub struct SceneData {

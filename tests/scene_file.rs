@@ -156,3 +156,14 @@ fn scenes_are_found_by_name() {
     assert_eq!(error.exit_code(), 1);
     assert!(error.to_string().contains("nowhere/scene.toml"), "{error}");
 }
+
+/// Catches documentation of keys that are no longer read.
+#[test]
+fn the_documented_example_is_valid() {
+    let page =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/scenes.md")).expect("the page");
+    let example =
+        page.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("an example");
+    let scene = load(example).expect("the example");
+    assert_eq!((scene.spheres.len(), scene.planes.len(), scene.lights.len()), (1, 1, 1));
+}

@@ -1,7 +1,7 @@
 //! Traces a batch of samples for each pixel of a lattice into the tracing image.
 
 use crate::error::Result;
-use crate::gpu_types::{Counters, SceneData, TracePush};
+use crate::gpu_types::{SceneData, TracePush};
 use crate::vulkan::{Binding, BindingSet, Buffer, ComputePipeline, Device, Image, Recording, Shader, shader};
 use std::sync::Arc;
 
@@ -101,12 +101,5 @@ impl Trace {
         extent: [u32; 2],
     ) {
         recording.dispatch(&self.0, bindings, bytemuck::bytes_of(push), extent);
-    }
-}
-
-impl Counters {
-    /// Reads the counters that the host sees.
-    pub fn read(buffer: &Buffer) -> Self {
-        bytemuck::pod_read_unaligned(&buffer.bytes()[..size_of::<Self>()])
     }
 }

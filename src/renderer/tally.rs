@@ -110,7 +110,7 @@ impl Tally {
             self.nanoseconds_per_sample = Some((elapsed.as_nanos() as f64 / traced as f64).max(least));
         }
         if picture == self.picture {
-            let counters = Counters::read(&frame.counters);
+            let counters = Counters::from_bytes(frame.counters.bytes());
             self.sum.traced += traced;
             self.sum.rays += u64::from(counters.rays);
             self.sum.rejected_samples += u64::from(counters.rejected_samples);

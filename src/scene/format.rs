@@ -2,14 +2,12 @@
 //! `[[directional]]`. Unknown keys are errors.
 
 use super::file::Fault;
+use super::material_format::{LightColor, MaterialList, MatteTable, MirrorTable, Named, PhongTable, white};
 use super::number::{Count, Extent, NonNegative, Positive, Rgb, Vector, VfovDegrees};
-use super::{
-    Aabb, Background, Camera, Checker, Lens, Light, LightKind, Material, Plane, Scene, Shaded, Sphere,
-    Triangle,
-};
+use super::{Aabb, Background, Camera, Lens, Light, LightKind, Plane, Scene, Shaded, Sphere, Triangle};
 use glam::Vec3;
 use serde::Deserialize;
-use std::collections::BTreeMap;
+
 use toml::Spanned;
 
 #[derive(Deserialize)]
@@ -46,8 +44,6 @@ pub(super) struct SceneFile {
     plane: Vec<PlaneTable>,
 }
 
-type Named<T> = BTreeMap<Spanned<String>, T>;
-
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct CameraTable {
@@ -72,14 +68,6 @@ struct BackgroundTable {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct LightColor {
-    #[serde(default = "white")]
-    color: Rgb,
-    radiance: NonNegative,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 struct PointTable {
     position: Vector,
     #[serde(default = "white")]
@@ -98,55 +86,6 @@ struct DirectionalTable {
     radiance: NonNegative,
     #[serde(default = "yes")]
     shadows: bool,
-}
-
-/// One colour, `[r, g, b]`, or a checker of two, `{ even, odd, size }`.
-#[derive(Deserialize)]
-#[serde(from = "ColorInput")]
-struct Color(Vec3, Option<Checker>);
-
-#[derive(Deserialize)]
-#[serde(untagged, expecting = "a color is [r, g, b] or { even = [r, g, b], odd = [r, g, b], size = EDGE }")]
-enum ColorInput {
-    Plain(Rgb),
-    Checker(CheckerTable),
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct CheckerTable {
-    even: Rgb,
-    odd: Rgb,
-    size: Positive,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct MatteTable {
-    color: Color,
-    ka: NonNegative,
-    kd: NonNegative,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct PhongTable {
-    color: Color,
-    ka: NonNegative,
-    kd: NonNegative,
-    ks: NonNegative,
-    exponent: NonNegative,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct MirrorTable {
-    color: Rgb,
-    kr: NonNegative,
-    #[serde(default)]
-    ks: NonNegative,
-    #[serde(default)]
-    exponent: NonNegative,
 }
 
 #[derive(Deserialize)]
@@ -192,40 +131,22 @@ fn upwards() -> Vector {
     Vector(Vec3::Y)
 }
 
-fn white() -> Rgb {
-    Rgb(Vec3::ONE)
-}
-
 fn yes() -> bool {
     true
 }
 
-impl From<ColorInput> for Color {
-    fn from(input: ColorInput) -> Self {
-        match input {
-            ColorInput::Plain(color) => Self(color.0, None),
-            ColorInput::Checker(checker) => {
-                Self(checker.even.0, Some(Checker { size: checker.size.f32(), odd_color: checker.odd.0 }))
-            }
-        }
-    }
-}
-
-impl LightColor {
-    fn radiance(&self) -> Vec3 {
-        self.color.0 * self.radiance.0
-    }
-}
-
 impl SceneFile {
-    pub(super) fn into_scene(mut self, name: &str) -> Result<Scene, Fault> {
+    pub(super) fn into_scene(self, name: &str) -> Result<Scene, Fault> {
         let size = [self.size[0].0, self.size[1].0];
         let (camera, lens) = camera(&self.camera, size)?;
         let background = background(self.background.as_ref())?;
         let ambient = self.ambient.as_ref().map_or(Vec3::ZERO, LightColor::radiance);
         let lights = self.lights()?;
-        let (index, materials) = self.materials()?;
-        let find = |name: &Spanned<String>| find_material(&index, name);
+        let mut list = MaterialList::default();
+        list.add(self.matte)?;
+        list.add(self.phong)?;
+        list.add(self.mirror)?;
+        list.add(self.emissive)?;
 
         let mut scene = Scene {
             name: name.to_owned(),
@@ -236,7 +157,7 @@ impl SceneFile {
             background,
             ambient,
             lights,
-            materials,
+            materials: Vec::new(),
             spheres: Vec::new(),
             boxes: Vec::new(),
             triangles: Vec::new(),
@@ -244,7 +165,7 @@ impl SceneFile {
         };
         for table in &self.sphere {
             let shape = Sphere { center: table.center.0, radius: table.radius.f32() };
-            let material = find(&table.material)?;
+            let material = list.find(&table.material)?;
             scene.spheres.push(Shaded { shape, material });
         }
         for table in &self.boxes {
@@ -252,7 +173,7 @@ impl SceneFile {
             if !shape.lower.cmplt(shape.upper).all() {
                 return Err(fault(&table.upper, "upper must be greater than lower on every axis"));
             }
-            let material = find(&table.material)?;
+            let material = list.find(&table.material)?;
             scene.boxes.push(Shaded { shape, material });
         }
         for table in &self.triangle {
@@ -261,14 +182,15 @@ impl SceneFile {
             if (b - a).cross(c - a) == Vec3::ZERO {
                 return Err(fault(&table.vertices, "the three vertices lie on one line"));
             }
-            let material = find(&table.material)?;
+            let material = list.find(&table.material)?;
             scene.triangles.push(Shaded { shape: Triangle { vertices }, material });
         }
         for table in &self.plane {
             let shape = Plane { point: table.point.0, normal: nonzero(&table.normal)? };
-            let material = find(&table.material)?;
+            let material = list.find(&table.material)?;
             scene.planes.push(Shaded { shape, material });
         }
+        scene.materials = list.materials;
         Ok(scene)
     }
 
@@ -289,57 +211,6 @@ impl SceneFile {
             });
         }
         Ok(lights)
-    }
-
-    /// The materials, and the index of each by its name.
-    fn materials(&mut self) -> Result<(BTreeMap<String, u32>, Vec<Material>), Fault> {
-        let matte = std::mem::take(&mut self.matte).into_iter().map(|(name, table)| {
-            let material = Material {
-                color: table.color.0,
-                checker: table.color.1,
-                ka: table.ka.0,
-                kd: table.kd.0,
-                ..Material::default()
-            };
-            (name, material)
-        });
-        let phong = std::mem::take(&mut self.phong).into_iter().map(|(name, table)| {
-            let material = Material {
-                color: table.color.0,
-                checker: table.color.1,
-                ka: table.ka.0,
-                kd: table.kd.0,
-                ks: table.ks.0,
-                exponent: table.exponent.0,
-                ..Material::default()
-            };
-            (name, material)
-        });
-        let mirror = std::mem::take(&mut self.mirror).into_iter().map(|(name, table)| {
-            let material = Material {
-                reflectance: table.color.0 * table.kr.0,
-                ks: table.ks.0,
-                exponent: table.exponent.0,
-                ..Material::default()
-            };
-            (name, material)
-        });
-        let emissive = std::mem::take(&mut self.emissive).into_iter().map(|(name, table)| {
-            let material = Material { emission: table.radiance(), ..Material::default() };
-            (name, material)
-        });
-
-        let mut index = BTreeMap::new();
-        let mut materials = Vec::new();
-        for (name, material) in matte.chain(phong).chain(mirror).chain(emissive) {
-            let number = u32::try_from(materials.len()).unwrap_or(u32::MAX);
-            if index.insert(name.get_ref().clone(), number).is_some() {
-                let message = format!("there is another material called '{}'", name.get_ref());
-                return Err(fault(&name, &message));
-            }
-            materials.push(material);
-        }
-        Ok((index, materials))
     }
 }
 
@@ -377,14 +248,6 @@ fn background(table: Option<&Spanned<BackgroundTable>>) -> Result<Background, Fa
     }
 }
 
-fn find_material(index: &BTreeMap<String, u32>, name: &Spanned<String>) -> Result<u32, Fault> {
-    index.get(name.get_ref()).copied().ok_or_else(|| {
-        let known: Vec<&str> = index.keys().map(String::as_str).collect();
-        let message = format!("no material '{}'; there are: {}", name.get_ref(), known.join(", "));
-        fault(name, &message)
-    })
-}
-
 fn nonzero(vector: &Spanned<Vector>) -> Result<Vec3, Fault> {
     match vector.get_ref().0 {
         Vec3::ZERO => Err(fault(vector, "this vector must not be zero")),
@@ -392,6 +255,6 @@ fn nonzero(vector: &Spanned<Vector>) -> Result<Vec3, Fault> {
     }
 }
 
-fn fault<T>(at: &Spanned<T>, message: &str) -> Fault {
+pub(super) fn fault<T>(at: &Spanned<T>, message: &str) -> Fault {
     Fault { span: at.span(), message: message.to_owned() }
 }

@@ -6,6 +6,7 @@ mod file;
 mod format;
 mod light;
 mod material;
+mod material_format;
 mod number;
 mod shape;
 
