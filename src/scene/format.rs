@@ -7,7 +7,6 @@ use super::number::{Count, Extent, NonNegative, Positive, Rgb, Vector, VfovDegre
 use super::{Aabb, Background, Camera, Lens, Light, LightKind, Plane, Scene, Shaded, Sphere, Triangle};
 use glam::Vec3;
 use serde::Deserialize;
-
 use toml::Spanned;
 
 #[derive(Deserialize)]
