@@ -1,4 +1,5 @@
-//! Compiles every compute shader in `shaders/` to SPIR-V. `src/vulkan/pipeline.rs` embeds them.
+//! Compiles compute shaders to SPIR-V in `OUT_DIR`: those of the program, which
+//! `src/vulkan/pipeline.rs` embeds, and those that only benches embed.
 
 use glslang::{
     Compiler, CompilerOptions, Program, Shader, ShaderInput, ShaderSource, ShaderStage, SourceLanguage,
@@ -7,6 +8,8 @@ use glslang::{
     include::{IncludeHandler, IncludeResult, IncludeType},
 };
 use std::path::{Path, PathBuf};
+
+const FOLDERS: [&str; 2] = ["shaders", "benches"];
 
 /// Finds `#include "name"` in `shaders/include`.
 struct Includes(PathBuf);
@@ -25,12 +28,10 @@ impl IncludeHandler for Includes {
 }
 
 fn main() {
-    println!("cargo:rerun-if-changed=shaders");
-    println!("cargo:rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=build.rs");
     let out = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     let mut failed = false;
-    for entry in std::fs::read_dir("shaders").expect("shaders/ is part of the package") {
-        let path = entry.expect("a readable entry of shaders/").path();
+    for path in FOLDERS.iter().flat_map(|folder| files(folder)) {
         if path.extension().is_none_or(|extension| extension != "comp") {
             continue;
         }
@@ -49,6 +50,13 @@ fn main() {
     if failed {
         std::process::exit(1);
     }
+}
+
+/// The files of a folder. Cargo runs this again when one of them, or their number, changes.
+fn files(folder: &str) -> Vec<PathBuf> {
+    println!("cargo::rerun-if-changed={folder}");
+    let entries = std::fs::read_dir(folder).expect("the folder is part of the package");
+    entries.map(|entry| entry.expect("a readable entry").path()).collect()
 }
 
 fn compile(path: &Path) -> Result<Vec<u32>, GlslangError> {
@@ -75,10 +83,10 @@ fn compile(path: &Path) -> Result<Vec<u32>, GlslangError> {
 }
 
 /// glslang names the file it was given "0"; cargo shows what a build script says as an error only
-/// behind `cargo:error=`.
+/// behind `cargo::error=`.
 fn report(path: &Path, log: &str) {
     for line in log.lines().filter(|line| line.contains("ERROR")) {
         let line = line.replace("ERROR: 0:", &format!("{}:", path.display()));
-        println!("cargo:error={}", line.replace("ERROR: ", ""));
+        println!("cargo::error={}", line.replace("ERROR: ", ""));
     }
 }

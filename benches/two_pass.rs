@@ -4,12 +4,6 @@
 //! turn with the two passes and with `fused.comp`, which adds to the film itself, and prints the
 //! medians of the device's own times and their ratio.
 
-use glslang::include::{IncludeHandler, IncludeResult, IncludeType};
-use glslang::{
-    Compiler, CompilerOptions, Program, Shader as Source, ShaderInput, ShaderSource, ShaderStage,
-    SourceLanguage, SpirvVersion, Target, VulkanVersion,
-};
-use std::path::Path;
 use std::sync::Arc;
 use thinlens::error::Result;
 use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush};
@@ -26,33 +20,8 @@ const SIZE: [u32; 2] = [640, 480];
 const SAMPLES: u32 = 16;
 const ROUNDS: usize = 21;
 
-struct Includes;
-
-impl IncludeHandler for Includes {
-    fn include(&mut self, _: IncludeType, name: &str, _: &str, _: usize) -> Option<IncludeResult> {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders/include").join(name);
-        Some(IncludeResult { name: name.into(), data: std::fs::read_to_string(path).ok()? })
-    }
-}
-
-fn fused_shader() -> Shader {
-    let compiler = Compiler::acquire().expect("glslang");
-    let source = ShaderSource::from(include_str!("fused.comp"));
-    let options = CompilerOptions {
-        source_language: SourceLanguage::GLSL,
-        target: Target::Vulkan { version: VulkanVersion::Vulkan1_3, spirv_version: SpirvVersion::SPIRV1_6 },
-        ..CompilerOptions::default()
-    };
-    let mut includes = Includes;
-    let defines = None::<&[(&str, Option<&str>)]>;
-    let input = ShaderInput::new(&source, ShaderStage::Compute, &options, defines, Some(&mut includes));
-    let shader = Source::new(compiler, input.expect("a target")).parse().expect("fused.comp compiles");
-    let mut program = Program::new(compiler);
-    program.add_shader(&shader);
-    let words = program.compile(ShaderStage::Compute).expect("fused.comp links");
-    let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
-    Shader { name: "fused", spirv: bytes.leak() }
-}
+const FUSED: Shader =
+    Shader { name: "fused", spirv: include_bytes!(concat!(env!("OUT_DIR"), "/fused.comp.spv")) };
 
 /// The device's time for what `record` records, in seconds.
 fn time(commands: &mut Commands, timer: &Timer, record: impl FnOnce(&mut Recording<'_>)) -> Result<f64> {
@@ -70,7 +39,7 @@ fn median(times: &mut [f64]) -> f64 {
     times[times.len() / 2]
 }
 
-fn measure(device: &Arc<Device>, name: &str, fused: Shader) -> Result<()> {
+fn measure(device: &Arc<Device>, name: &str) -> Result<()> {
     let mut settings = Settings::of_scene(SceneRef::new(scene::load(name)?));
     settings.estimator.size = SIZE;
     let estimator = &settings.estimator;
@@ -81,7 +50,7 @@ fn measure(device: &Arc<Device>, name: &str, fused: Shader) -> Result<()> {
     let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene))?;
     let (trace, accumulate) = (Trace::new(device, &scene)?, Accumulate::new(device)?);
     let (traced, accumulated) = (trace.bind(&scene, &batch, &counters)?, accumulate.bind(&batch, &film)?);
-    let fused = ComputePipeline::new(device, fused, scene.constants())?;
+    let fused = ComputePipeline::new(device, FUSED, scene.constants())?;
     let fused_bindings = BindingSet::new(&fused, &scene.bindings(&film, &counters))?;
 
     let mut commands = Commands::new(device)?;
@@ -140,9 +109,8 @@ fn main() -> Result<()> {
         SIZE[0],
         SIZE[1]
     );
-    let fused = fused_shader();
     for builtin in scene::BUILTINS {
-        measure(&device, builtin.name, fused)?;
+        measure(&device, builtin.name)?;
     }
     Ok(())
 }
