@@ -14,34 +14,26 @@ layout(set = 0, binding = 0, rgba32f) readonly uniform image2D batch_image;
 layout(set = 0, binding = 1, rgba32f) uniform image2D film_image;
 
 layout(push_constant, std430) uniform AccumulatePush {
-    Lattice lattice; // the pixels that were traced
+    Lattice lattice; // the pixels to merge
     uint seed;
-    uint first_sample;
+    uint first_sample; // 0: the picture starts, and the film is taken for empty
     float jitter; // pixels
     int reach; // how many pixels a sample can land from its start pixel; 0: at home
 } push;
 
-bool traced(uvec2 pixel) {
-    uvec2 step = pixel - push.lattice.origin;
-    return inside(pixel, push.lattice.extent) && pixel.x >= push.lattice.origin.x
-        && pixel.y >= push.lattice.origin.y && step % push.lattice.stride == uvec2(0u);
-}
-
 void main() {
-    // Samples that stay at home touch the lattice only; samples that stray, the whole film.
-    uvec2 pixel = push.reach == 0 ? lattice_pixel(push.lattice, gl_GlobalInvocationID.xy)
-                                  : gl_GlobalInvocationID.xy;
+    uvec2 pixel = lattice_pixel(push.lattice, gl_GlobalInvocationID.xy);
     if (!inside(pixel, push.lattice.extent)) {
         return;
     }
-    vec4 film = imageLoad(film_image, ivec2(pixel));
+    vec4 film = push.first_sample == 0u ? vec4(0.0) : imageLoad(film_image, ivec2(pixel));
     if (push.reach == 0) {
         film = merge(film, imageLoad(batch_image, ivec2(pixel)));
     } else {
         for (int y = -push.reach; y <= push.reach; ++y) {
             for (int x = -push.reach; x <= push.reach; ++x) {
                 ivec2 start = ivec2(pixel) + ivec2(x, y);
-                if (start.x < 0 || start.y < 0 || !traced(uvec2(start))) {
+                if (start.x < 0 || start.y < 0 || !inside(uvec2(start), push.lattice.extent)) {
                     continue;
                 }
                 vec4 xi = sample_values(push.seed, uvec2(start), push.first_sample, BLOCK_FILM_AND_LENS);

@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Pass 3: turns the film's means into a picture: exposure and sRGB encoding. A pixel without a
-// sample shows the nearest one that has some.
+// sample shows the nearest one that has some. While the first sample is being filled in, the film
+// bound here is the tracing image, which holds what there is of it.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -14,7 +15,7 @@ layout(set = 0, binding = 1, rgba8) writeonly uniform image2D picture_image;
 
 layout(push_constant, std430) uniform ResolvePush {
     uvec2 extent;
-    uint preview_stride; // the film holds at least the pixels (stride / 2) + stride * i, for stride > 2
+    uint preview_stride; // of a lattice of pixels that is filled: (2, 2) + 4 i, or 2 i, or all
     float exposure; // linear factor
 } push;
 

@@ -53,7 +53,8 @@ vec3 shade(Material material, Ray ray, vec3 position, vec3 normal, float offset,
             if (!shadowed) {
                 vec3 reflected = 2.0 * cosine * normal - to_light;
                 float highlight = max(dot(reflected, -ray.direction), 0.0);
-                float gloss = material.ks > 0.0 ? material.ks * pow(highlight, material.exponent) : 0.0;
+                // pow(0, 0) is undefined.
+                float gloss = highlight > 0.0 ? material.ks * pow(highlight, material.exponent) : 0.0;
                 sum += (material.kd * INVERSE_PI * color + gloss) * light.radiance * cosine;
             }
         }

@@ -20,6 +20,11 @@ impl Accumulate {
         Ok(Self(ComputePipeline::new(device, Self::SHADER, &[])?))
     }
 
+    /// Width and height of a workgroup: tiles are cut at multiples of it.
+    pub fn local_size(&self) -> [u32; 2] {
+        self.0.local_size()
+    }
+
     /// From the tracing image `batch` into `film`.
     ///
     /// # Errors
@@ -29,16 +34,14 @@ impl Accumulate {
         BindingSet::new(&self.0, &images)
     }
 
-    /// Merges the pixels of the push constants' lattice, of which there are `traced`. With a reach,
-    /// every pixel of the film gathers.
+    /// Merges `extent` pixels of the push constants' lattice.
     pub fn record(
         &self,
         recording: &mut Recording<'_>,
         bindings: &BindingSet,
         push: &AccumulatePush,
-        traced: [u32; 2],
+        extent: [u32; 2],
     ) {
-        let extent = if push.reach == 0 { traced } else { push.lattice.extent };
         recording.dispatch(&self.0, bindings, bytemuck::bytes_of(push), extent);
     }
 }

@@ -87,9 +87,9 @@ impl Trace {
         BindingSet::new(&self.0, &scene.bindings(batch, counters))
     }
 
-    /// The rows that a workgroup covers: tiles are cut at multiples of it.
-    pub fn row_granularity(&self) -> u32 {
-        self.0.local_size()[1]
+    /// Width and height of a workgroup: tiles are cut at multiples of it.
+    pub fn local_size(&self) -> [u32; 2] {
+        self.0.local_size()
     }
 
     /// Traces `extent` pixels of the push constants' lattice.

@@ -15,6 +15,8 @@ pub(super) struct Film {
     pub(super) picture: Arc<Image>,
     pub(super) accumulate: BindingSet,
     pub(super) resolve: BindingSet,
+    /// Resolves the tracing image instead of the film.
+    pub(super) resolve_preview: BindingSet,
     initialized: bool,
 }
 
@@ -38,6 +40,7 @@ impl Film {
         Ok(Self {
             accumulate: accumulate.bind(&batch, &film)?,
             resolve: resolve.bind(&film, &picture)?,
+            resolve_preview: resolve.bind(&batch, &picture)?,
             batch,
             film,
             picture,
@@ -45,13 +48,14 @@ impl Film {
         })
     }
 
-    /// Sets every count to zero.
+    /// Empties the tracing image, so that a preview shows nothing of the last picture. The film
+    /// itself is taken for empty by the first accumulation.
     pub(super) fn record_clear(&mut self, recording: &mut Recording<'_>) {
         if !self.initialized {
-            recording.clear(&self.batch);
+            recording.clear(&self.film);
             recording.clear(&self.picture);
             self.initialized = true;
         }
-        recording.clear(&self.film);
+        recording.clear(&self.batch);
     }
 }

@@ -1,6 +1,6 @@
 //! Owns the film, the scene on the device, and the passes. Knows no window and no file.
 //!
-//! Work is recorded in tiles of rows whose time is bounded; whole passes are merged into the film.
+//! Work is recorded in tiles whose time is bounded; whole passes are merged into the film.
 //! None of that changes the picture: see [`schedule`].
 
 mod film;
@@ -16,13 +16,13 @@ use crate::scene::SceneRef;
 use crate::settings::{Estimator, Settings, View};
 use crate::vulkan::{BindingSet, Buffer, Commands, Device, Image, Recording, Residence};
 use film::Film;
-use schedule::{MAX_BATCH, Pass, reach};
+use schedule::{Cursor, MAX_BATCH, Pass, reach};
 use std::sync::Arc;
 use std::time::Duration;
-use tally::Tally;
+use tally::{Tally, Work};
 
 /// Small pictures would otherwise record thousands of passes for one submission.
-const MAX_PASSES_PER_SUBMISSION: u32 = 64;
+const MAX_TILES_PER_SUBMISSION: u32 = 64;
 /// How long a headless submission works: far below what desktop drivers kill a dispatch for.
 const HEADLESS_BUDGET: Duration = Duration::from_millis(100);
 
@@ -48,11 +48,12 @@ pub struct Renderer {
     settings: Option<Settings>,
     /// Samples per pixel in the film, from whole passes.
     samples: u32,
-    /// The pass under way, and how many of the lattice's rows are traced.
-    cursor: Option<(Pass, u32)>,
+    /// The pass under way.
+    cursor: Option<Cursor>,
     filled_stride: u32,
     needs_clear: bool,
-    resolved: Option<(View, u32)>,
+    /// How the picture was resolved, unless the film has changed since.
+    resolved: Option<View>,
     max_batch: u32,
     device: Arc<Device>,
 }
@@ -89,8 +90,7 @@ impl Renderer {
         })
     }
 
-    /// Cuts batches at other sample indices from the next picture on: a power of two, at most 16
-    /// unless for measuring.
+    /// Cuts batches at other sample indices from the next pass on: a power of two.
     pub fn set_max_batch(&mut self, max_batch: u32) {
         self.max_batch = max_batch;
     }
@@ -104,7 +104,7 @@ impl Renderer {
     pub fn set(&mut self, settings: &Settings) -> Result<()> {
         settings.check()?;
         let last = self.settings.as_ref();
-        let restart =
+        let mut restart =
             last.is_none_or(|last| last.estimator != settings.estimator) || settings.samples < self.samples;
         let estimator = &settings.estimator;
         if self.scene.as_ref().is_none_or(|loaded| loaded.scene != estimator.scene) {
@@ -117,6 +117,7 @@ impl Renderer {
         }
         if let (None, Some(loaded), Some(film)) = (&self.trace_bindings, &self.scene, &self.film) {
             self.trace_bindings = Some(loaded.trace.bind(&loaded.buffers, &film.batch, &self.counters)?);
+            restart = true;
         }
         if restart {
             self.samples = 0;
@@ -126,7 +127,7 @@ impl Renderer {
             self.resolved = None;
             self.tally.restart();
         }
-        if self.cursor.is_some_and(|(pass, _)| pass.end() > settings.samples) {
+        if self.cursor.is_some_and(|cursor| cursor.pass.end() > settings.samples) {
             self.cursor = None;
         }
         self.settings = Some(settings.clone());
@@ -163,143 +164,150 @@ impl Renderer {
         let scene = self.scene.as_ref().expect("set() comes first");
         let most_rays = (1 + settings.estimator.max_bounces).saturating_mul(1 + scene.buffers.light_count());
         // Rays are counted in 32 bits a submission.
-        let mut left = self.tally.pixel_samples_within(pace.budget).min(u64::from(u32::MAX / most_rays));
+        let budget = self.tally.work_within(pace.budget).min(u64::from(u32::MAX / most_rays));
+        let mut left = budget;
 
         recording.barrier();
-        if self.needs_clear {
-            self.film.as_mut().expect("set() comes first").record_clear(recording);
-            self.needs_clear = false;
-        }
+        self.record_clear(recording);
         recording.clear_buffer(&self.counters);
         self.tally.start(recording, frame);
-        let mut traced = 0;
-        for _ in 0..MAX_PASSES_PER_SUBMISSION {
+        let mut done = Work::default();
+        for _ in 0..MAX_TILES_PER_SUBMISSION {
             if self.samples >= settings.samples {
                 break;
             }
-            let must = traced == 0 || (pace.preview && self.film_is_empty());
-            let Some(pixel_samples) = self.record_tile(recording, &settings, left, must, pace.preview) else {
+            let cursor =
+                self.cursor.unwrap_or_else(|| Cursor::start(self.next_pass(&settings, left, pace.preview)));
+            // The first lattice of a preview is traced whole: without it there is nothing to show.
+            let whole = pace.preview && self.samples == 0 && cursor.is_first_lattice();
+            let Some(work) = self.record_tile(recording, &settings.estimator, cursor, left, whole) else {
                 break;
             };
-            traced += pixel_samples;
-            left = left.saturating_sub(pixel_samples);
+            done.samples += work.samples;
+            done.cost += work.cost;
+            left = left.saturating_sub(work.cost);
+            // The first tile is recorded whatever it costs; for a small rest no other one is.
+            if left <= budget / 8 && !(pace.preview && self.samples == 0 && self.nothing_to_show()) {
+                break;
+            }
         }
-        self.tally.stop(recording, frame, traced, &self.counters);
+        self.tally.stop(recording, frame, done, &self.counters);
     }
 
-    fn film_is_empty(&self) -> bool {
-        self.samples == 0 && self.cursor.is_none_or(|(pass, _)| pass.phase == 0)
+    fn nothing_to_show(&self) -> bool {
+        self.cursor.is_none_or(Cursor::is_first_lattice)
     }
 
-    /// Records rows of the pass under way, or of the next one: as many as `left` pixel samples
-    /// allow. None if that is not even one row of workgroups and nothing `must` be recorded.
+    fn record_clear(&mut self, recording: &mut Recording<'_>) {
+        if let (true, Some(film)) = (self.needs_clear, &mut self.film) {
+            film.record_clear(recording);
+            self.needs_clear = false;
+        }
+    }
+
+    /// Records a tile of the pass under way, for about `left` units of work, or `whole`.
     fn record_tile(
         &mut self,
         recording: &mut Recording<'_>,
-        settings: &Settings,
+        estimator: &Estimator,
+        cursor: Cursor,
         left: u64,
-        must: bool,
-        preview: bool,
-    ) -> Option<u64> {
-        let estimator = &settings.estimator;
-        let (pass, row) = match self.cursor {
-            Some(cursor) => cursor,
-            None => (self.next_pass(settings, left, preview), 0),
-        };
-        let [columns, all_rows] = pass.lattice_size(estimator.size);
+        whole: bool,
+    ) -> Option<Work> {
         let (scene, film, bindings) = match (&self.scene, &self.film, &self.trace_bindings) {
             (Some(scene), Some(film), Some(bindings)) => (scene, film, bindings),
             _ => return None,
         };
+        let Cursor { pass, at, accumulating } = cursor;
+        let size = if accumulating { estimator.size } else { pass.lattice_size(estimator.size) };
+        let (cost, local) = if accumulating {
+            (accumulate_cost(estimator.jitter), self.accumulate.local_size())
+        } else {
+            (f64::from(pass.sample_count), scene.trace.local_size())
+        };
+        let pixels = (left as f64 / cost) as u64;
+        let tile = if whole { size } else { schedule::tile(size, at, pixels, local) };
+        let tile_pixels = u64::from(tile[0]) * u64::from(tile[1]);
 
-        // The first lattice of a preview is traced whole: without it there is nothing to show.
-        let whole = preview && self.film_is_empty();
-        let per_row = u64::from(columns) * u64::from(pass.sample_count);
-        let granularity = scene.trace.row_granularity();
-        let affordable = u32::try_from(left / per_row.max(1)).unwrap_or(u32::MAX);
-        let affordable = affordable / granularity * granularity;
-        if affordable == 0 && !must {
-            return None;
-        }
-        let rows = if whole { all_rows } else { affordable.max(granularity).min(all_rows - row) };
-
-        if rows > 0 && columns > 0 {
-            let mut tile = pass.lattice(estimator.size);
-            tile.origin[1] += row * pass.stride;
+        let mut lattice = if accumulating { Pass::whole(0, 1, 1) } else { pass }.lattice(estimator.size);
+        lattice.origin = [0, 1].map(|axis| lattice.origin[axis] + at[axis] * lattice.stride);
+        if tile_pixels > 0 && accumulating {
+            let push = AccumulatePush {
+                lattice,
+                seed: estimator.seed,
+                first_sample: pass.first_sample,
+                jitter: estimator.jitter,
+                reach: i32::try_from(reach(estimator.jitter)).unwrap_or(i32::MAX),
+            };
+            self.accumulate.record(recording, &film.accumulate, &push, tile);
+        } else if tile_pixels > 0 {
             let push = TracePush {
                 camera: Camera::new(estimator),
-                lattice: tile,
+                lattice,
                 seed: estimator.seed,
                 max_bounces: estimator.max_bounces,
                 first_sample: pass.first_sample,
                 sample_count: pass.sample_count,
             };
-            scene.trace.record(recording, bindings, &push, [columns, rows]);
+            scene.trace.record(recording, bindings, &push, tile);
         }
-        if row + rows < all_rows {
-            self.cursor = Some((pass, row + rows));
-        } else {
-            recording.barrier();
-            let push = accumulate_push(estimator, pass);
-            self.accumulate.record(recording, &film.accumulate, &push, [columns, all_rows]);
-            recording.barrier();
-            self.finish(pass);
+        match schedule::after_tile(size, at, tile) {
+            Some(at) => self.cursor = Some(Cursor { at, ..cursor }),
+            None => {
+                recording.barrier();
+                self.finish(cursor);
+            }
         }
-        Some(per_row * u64::from(rows))
+        let samples = if accumulating { 0 } else { tile_pixels * u64::from(pass.sample_count) };
+        Some(Work { samples, cost: (tile_pixels as f64 * cost).ceil() as u64 })
     }
 
     fn next_pass(&self, settings: &Settings, left: u64, preview: bool) -> Pass {
         let estimator = &settings.estimator;
-        let wide = reach(estimator.jitter) > 0;
-        if self.samples > 0 || !(wide || preview) {
-            let max_batch = if wide { 1 } else { self.max_batch };
-            return Pass::whole(self.samples, settings.samples, max_batch);
-        }
-        // Where samples stray, the order of merging follows the phases, so they are always the same.
         let [width, height] = estimator.size.map(u64::from);
-        let stride = match width * height {
-            _ if wide => 4,
-            pixels if pixels <= left => 1,
-            pixels if pixels / 4 <= left => 2,
-            _ => 4,
-        };
-        Pass::interleaved(stride)
+        match width * height {
+            pixels if preview && self.samples == 0 && pixels / 4 > left => Pass::interleaved(4),
+            pixels if preview && self.samples == 0 && pixels > left => Pass::interleaved(2),
+            _ if preview && self.samples == 0 => Pass::interleaved(1),
+            _ => {
+                // A sample that strays must be found again by its index, so it travels alone.
+                let max_batch = if reach(estimator.jitter) > 0 { 1 } else { self.max_batch };
+                Pass::whole(self.samples, settings.samples, max_batch)
+            }
+        }
     }
 
-    fn finish(&mut self, pass: Pass) {
+    /// The last tile of a pass is recorded: what comes after?
+    fn finish(&mut self, cursor: Cursor) {
         self.resolved = None;
-        self.filled_stride = pass.filled_stride();
-        match pass.next_phase() {
-            Some(next) => self.cursor = Some((next, 0)),
-            None => {
-                self.cursor = None;
-                self.samples = pass.end();
-            }
+        self.cursor = None;
+        if cursor.accumulating {
+            self.samples = cursor.pass.end();
+        } else {
+            self.filled_stride = cursor.pass.filled_stride();
+            self.cursor = Some(cursor.after_tracing());
         }
     }
 
     /// Records the resolve pass, if the picture is not up to date.
     pub fn record_resolve(&mut self, recording: &mut Recording<'_>) {
-        let (Some(settings), Some(film)) = (&self.settings, &mut self.film) else {
+        self.record_clear(recording);
+        let (Some(settings), Some(film)) = (&self.settings, &self.film) else {
             return;
         };
-        if self.needs_clear {
-            film.record_clear(recording);
-            self.needs_clear = false;
-        }
-        let state = (settings.view, self.filled_stride);
-        if self.resolved == Some(state) {
+        if self.resolved == Some(settings.view) {
             return;
         }
-        let push = ResolvePush {
-            extent: settings.estimator.size,
-            preview_stride: self.filled_stride,
-            exposure: settings.view.exposure_stops.exp2(),
+        let (bindings, preview_stride) = match self.samples {
+            0 => (&film.resolve_preview, self.filled_stride),
+            _ => (&film.resolve, 1),
         };
+        let extent = settings.estimator.size;
+        let push = ResolvePush { extent, preview_stride, exposure: settings.view.exposure_stops.exp2() };
         recording.barrier();
-        self.resolve.record(recording, &film.resolve, &push);
+        self.resolve.record(recording, bindings, &push);
         recording.barrier();
-        self.resolved = Some(state);
+        self.resolved = Some(settings.view);
     }
 
     /// Takes in what the device measured and counted while it ran `frame`, whose commands are done.
@@ -374,12 +382,8 @@ impl Renderer {
     }
 }
 
-fn accumulate_push(estimator: &Estimator, pass: Pass) -> AccumulatePush {
-    AccumulatePush {
-        lattice: pass.lattice(estimator.size),
-        seed: estimator.seed,
-        first_sample: pass.first_sample,
-        jitter: estimator.jitter,
-        reach: i32::try_from(reach(estimator.jitter)).unwrap_or(i32::MAX),
-    }
+/// What accumulating a pixel costs, in samples traced: about an eighth for each texel it looks at.
+fn accumulate_cost(jitter: f32) -> f64 {
+    let across = f64::from(2 * reach(jitter) + 1);
+    across * across / 8.0
 }

@@ -44,6 +44,39 @@ pub struct Pass {
     pub phase: u32,
 }
 
+/// Where the work stands: a pass is traced tile by tile, then, if it was the last one of its
+/// samples, merged into the film tile by tile.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Cursor {
+    /// The pass under way.
+    pub pass: Pass,
+    /// Whether it is traced and being merged.
+    pub accumulating: bool,
+    /// Column and row where the next tile starts: of the lattice while tracing, of the film while
+    /// merging.
+    pub at: [u32; 2],
+}
+
+impl Cursor {
+    /// The start of a pass.
+    pub fn start(pass: Pass) -> Self {
+        Self { pass, accumulating: false, at: [0, 0] }
+    }
+
+    /// What follows when the pass is traced.
+    pub fn after_tracing(self) -> Self {
+        match self.pass.next_phase() {
+            Some(next) => Self::start(next),
+            None => Self { accumulating: true, ..Self::start(self.pass) },
+        }
+    }
+
+    /// Whether it is still tracing the first lattice of its samples.
+    pub fn is_first_lattice(self) -> bool {
+        self.pass.phase == 0 && !self.accumulating
+    }
+}
+
 impl Pass {
     /// The batch that starts at `first_sample`, of every pixel: cut at 1, 2, 4, 8, 16, then at
     /// every `max_batch` samples, and at `target`.
@@ -97,6 +130,27 @@ impl Pass {
         let origin = self.lattice(size).origin;
         [0, 1].map(|axis| size[axis].saturating_sub(origin[axis]).div_ceil(self.stride))
     }
+}
+
+/// The columns and rows of the next tile, in a lattice of `size`, of which everything before
+/// `at` is done: as many whole rows as `pixels` allows, or else a piece of a row of workgroups.
+/// Tiles are cut at multiples of the workgroup's size `local`, and hold one workgroup at least.
+pub fn tile(size: [u32; 2], at: [u32; 2], pixels: u64, local: [u32; 2]) -> [u32; 2] {
+    let whole = |count: u64, unit: u32| u32::try_from(count).unwrap_or(u32::MAX) / unit * unit;
+    let left = [0, 1].map(|axis| size[axis].saturating_sub(at[axis]));
+    let rows = whole(pixels / u64::from(size[0].max(1)), local[1]);
+    if at[0] == 0 && rows > 0 {
+        return [left[0], rows.min(left[1])];
+    }
+    let columns = whole(pixels / u64::from(local[1]), local[0]).max(local[0]);
+    [columns.min(left[0]), local[1].min(left[1])]
+}
+
+/// Where the next tile starts, after one of `done` columns and rows at `at`. None when the lattice
+/// is done.
+pub fn after_tile(size: [u32; 2], at: [u32; 2], done: [u32; 2]) -> Option<[u32; 2]> {
+    let next = if at[0] + done[0] < size[0] { [at[0] + done[0], at[1]] } else { [0, at[1] + done[1]] };
+    (done[1] > 0 && next[1] < size[1]).then_some(next)
 }
 
 /// How far from its start pixel a sample can land, in pixels.
@@ -165,6 +219,27 @@ mod tests {
                     assert!(filled == 1 || seen.contains(&[cell(x), cell(y)]), "{pass:?}");
                 }
                 next = pass.next_phase();
+            }
+        }
+    }
+
+    /// Catches tiles that overlap, leave gaps, or are larger than they may be.
+    #[test]
+    fn tiles_cover_a_lattice_once_and_keep_to_their_size() {
+        let local = [8, 8];
+        for size in [[0, 0], [1, 1], [8, 8], [37, 51], [200, 17]] {
+            for pixels in [0, 1, 64, 500, 1 << 40] {
+                let mut seen = HashSet::new();
+                let mut next = Some([0, 0]);
+                while let Some(at) = next {
+                    let [columns, rows] = tile(size, at, pixels, local);
+                    assert!(u64::from(columns) * u64::from(rows) <= pixels.max(64));
+                    for (x, y) in (0..rows).flat_map(|y| (0..columns).map(move |x| (x, y))) {
+                        assert!(seen.insert([at[0] + x, at[1] + y]), "{at:?} of {size:?}");
+                    }
+                    next = after_tile(size, at, [columns, rows]);
+                }
+                assert_eq!(seen.len(), (size[0] * size[1]) as usize, "{size:?}, {pixels} pixels");
             }
         }
     }

@@ -4,7 +4,7 @@ use crate::error::Result;
 use crate::gpu_types::Counters;
 use crate::vulkan::{Buffer, Device, FRAMES_IN_FLIGHT, Recording, Residence, Timer};
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Assumed until a submission was measured: slow enough for a software device.
 const UNMEASURED_NANOSECONDS: f64 = 50.0;
@@ -24,11 +24,20 @@ pub struct Progress {
     pub device_time: Duration,
 }
 
+/// What a submission does.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Work {
+    /// Samples it traces.
+    pub(super) samples: u64,
+    /// What it costs, all told, in samples traced.
+    pub(super) cost: u64,
+}
+
 /// Counters and clocks of the frames in flight, and their sums.
 pub(super) struct Tally {
     frames: Vec<Frame>,
     sum: Progress,
-    nanoseconds_per_sample: Option<f64>,
+    nanoseconds_per_unit: Option<f64>,
     /// Told apart by number, so that frames in flight do not count for a later picture.
     picture: u64,
 }
@@ -36,8 +45,8 @@ pub(super) struct Tally {
 struct Frame {
     timer: Timer,
     counters: Buffer,
-    /// Picture and pixel samples of the submission under way.
-    pending: Option<(u64, u64)>,
+    /// Picture, work and start of the submission under way.
+    pending: Option<(u64, Work, Instant)>,
 }
 
 impl Tally {
@@ -57,7 +66,7 @@ impl Tally {
         Ok(Self {
             frames: (0..FRAMES_IN_FLIGHT).map(|_| frame()).collect::<Result<_>>()?,
             sum: Progress::default(),
-            nanoseconds_per_sample: None,
+            nanoseconds_per_unit: None,
             picture: 0,
         })
     }
@@ -69,12 +78,12 @@ impl Tally {
 
     /// Another scene: what was measured says nothing of it.
     pub(super) fn forget_rate(&mut self) {
-        self.nanoseconds_per_sample = None;
+        self.nanoseconds_per_unit = None;
     }
 
-    /// How many samples the device can trace in this time, by the last measurement.
-    pub(super) fn pixel_samples_within(&self, budget: Duration) -> u64 {
-        let each = self.nanoseconds_per_sample.unwrap_or(UNMEASURED_NANOSECONDS);
+    /// How much the device can do in this time, in samples traced, by the last measurement.
+    pub(super) fn work_within(&self, budget: Duration) -> u64 {
+        let each = self.nanoseconds_per_unit.unwrap_or(UNMEASURED_NANOSECONDS);
         (budget.as_nanos() as f64 / each) as u64
     }
 
@@ -86,35 +95,35 @@ impl Tally {
         &mut self,
         recording: &mut Recording<'_>,
         frame: usize,
-        traced: u64,
+        work: Work,
         counters: &Buffer,
     ) {
         let frame = &mut self.frames[frame];
         recording.stop(&frame.timer);
         recording.barrier();
         recording.copy_buffer(counters, &frame.counters, size_of::<Counters>() as u64);
-        frame.pending = Some((self.picture, traced));
+        frame.pending = Some((self.picture, work, Instant::now()));
     }
 
     pub(super) fn collect(&mut self, frame: usize) -> Result<()> {
         let frame = &mut self.frames[frame];
-        let Some((picture, traced)) = frame.pending.take() else {
+        let Some((picture, work, started)) = frame.pending.take() else {
             return Ok(());
         };
-        let elapsed = frame.timer.elapsed()?;
-        if let Some(elapsed) = elapsed
-            && traced > 0
-        {
+        // Without a clock on the queue, the host's has to do.
+        let elapsed = frame.timer.elapsed()?.unwrap_or_else(|| started.elapsed());
+        if work.cost > 0 {
             // A clock that reads too little must not lead to a dispatch of seconds.
-            let least = self.nanoseconds_per_sample.unwrap_or(UNMEASURED_NANOSECONDS) / 8.0;
-            self.nanoseconds_per_sample = Some((elapsed.as_nanos() as f64 / traced as f64).max(least));
+            let least = self.nanoseconds_per_unit.unwrap_or(UNMEASURED_NANOSECONDS) / 8.0;
+            let measured = elapsed.as_nanos() as f64 / work.cost as f64;
+            self.nanoseconds_per_unit = Some(measured.max(least));
         }
         if picture == self.picture {
             let counters = Counters::from_bytes(frame.counters.bytes());
-            self.sum.traced += traced;
+            self.sum.traced += work.samples;
             self.sum.rays += u64::from(counters.rays);
             self.sum.rejected_samples += u64::from(counters.rejected_samples);
-            self.sum.device_time += elapsed.unwrap_or_default();
+            self.sum.device_time += elapsed;
         }
         Ok(())
     }
