@@ -85,7 +85,10 @@ fn compile(path: &Path) -> Result<Vec<u32>, GlslangError> {
 /// glslang names the file it was given "0"; cargo shows what a build script says as an error only
 /// behind `cargo::error=`.
 fn report(path: &Path, log: &str) {
-    for line in log.lines().filter(|line| line.contains("ERROR")) {
+    let errors: Vec<&str> = log.lines().filter(|line| line.contains("ERROR")).collect();
+    let lines = if errors.is_empty() { log.lines().collect() } else { errors };
+    println!("cargo::error={} does not compile", path.display());
+    for line in lines {
         let line = line.replace("ERROR: 0:", &format!("{}:", path.display()));
         println!("cargo::error={}", line.replace("ERROR: ", ""));
     }

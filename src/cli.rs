@@ -66,7 +66,7 @@ pub struct RenderArgs {
     /// On which device, and whether it is watched.
     #[command(flatten)]
     pub device: DeviceArgs,
-    /// Say nothing unless something fails
+    /// Say nothing but warnings and errors
     #[arg(short, long)]
     pub quiet: bool,
 }

@@ -43,19 +43,20 @@ pub enum Error {
         /// Vulkan's code.
         result: ash::vk::Result,
     },
-    /// A picture or scene does not fit on the device.
-    #[error("not enough memory on the device for {what} ({bytes} bytes); try a smaller --size")]
-    DeviceMemory {
+    /// A picture or scene does not fit in memory.
+    #[error("not enough memory for {what}; try a smaller --size, or another device (thinlens devices)")]
+    Memory {
         /// What it was for.
-        what: String,
-        /// Its size.
-        bytes: u64,
+        what: &'static str,
     },
+    /// The device that was asked for cannot be used.
+    #[error("cannot use {0}; choose another one: thinlens devices")]
+    UnusableDevice(String),
     /// The window system failed.
-    #[error("window: {0}")]
+    #[error("window: {0}; to render without one: thinlens render -o picture.png")]
     Window(String),
     /// There is no display.
-    #[error("no display ({0})")]
+    #[error("no display ({0}); to render without one: thinlens render -o picture.png")]
     NoDisplay(String),
     /// SCENE is neither a built-in nor a file.
     #[error("no scene '{name}'; {hint}")]
@@ -69,7 +70,7 @@ pub enum Error {
     #[error("cannot write '{}': its name must end in .png or .exr", .0.display())]
     UnknownFormat(PathBuf),
     /// A file cannot be read.
-    #[error("cannot read {}: {source}", path.display())]
+    #[error("cannot read {}: {source}; check the path and its permissions", path.display())]
     Read {
         /// Which file.
         path: PathBuf,
@@ -100,6 +101,9 @@ pub enum Error {
     /// The validation layer spoke.
     #[error("the validation layer gave {0} message(s), printed above; please report them as a bug")]
     Validation(usize),
+    /// Standard output cannot be written.
+    #[error("cannot write to standard output: {0}; the picture, if one was asked for, is written")]
+    Output(std::io::Error),
 }
 
 impl Error {

@@ -1,16 +1,12 @@
 //! Everything a user can set, in the two halves that decide when the film starts anew.
 
 use crate::error::{Error, Result};
-use crate::scene::{Camera, Lens, MAX_BOUNCES, MAX_EXTENT, SceneRef};
+use crate::scene::{Camera, Lens, MAX_BOUNCES, MAX_EXTENT, MAX_LENGTH, MIN_LENGTH, SceneRef};
 
 /// The film's count is held in f32, which is exact up to here.
 pub const MAX_SAMPLES: u32 = 1 << 24;
 /// The widest jitter, in pixels. Accumulation looks at `ceil(jitter / 2 - 1 / 2)` pixels around.
 pub const MAX_JITTER: f32 = 15.0;
-/// The smallest focal distance, in scene units, so that its inverse stays finite.
-pub const MIN_FOCAL_DISTANCE: f32 = 1e-6;
-/// The largest length, in scene units.
-pub const MAX_LENGTH: f32 = 1e12;
 /// The strongest exposure either way, in stops.
 pub const MAX_EXPOSURE_STOPS: f32 = 20.0;
 /// Samples per pixel of a headless picture, unless another number is asked for.
@@ -91,10 +87,12 @@ impl Settings {
         in_range("size: width", size[0], 1, MAX_EXTENT)?;
         in_range("size: height", size[1], 1, MAX_EXTENT)?;
         in_range("lens-diameter", lens.diameter, 0.0, MAX_LENGTH)?;
-        in_range("focal-distance", lens.focal_distance, MIN_FOCAL_DISTANCE, MAX_LENGTH)?;
+        in_range("focal-distance", lens.focal_distance, MIN_LENGTH, MAX_LENGTH)?;
         in_range("jitter", *jitter, 0.0, MAX_JITTER)?;
         in_range("max-bounces", *max_bounces, 0, MAX_BOUNCES)?;
-        in_range("samples", self.samples, 1, MAX_SAMPLES)?;
+        // Chance lands more than its share in a pixel: by 16 standard deviations, never that many.
+        let most = if *jitter > DEFAULT_JITTER { MAX_SAMPLES - (1 << 16) } else { MAX_SAMPLES };
+        in_range("samples", self.samples, 1, most)?;
         let stops = MAX_EXPOSURE_STOPS;
         in_range("exposure", self.view.exposure_stops, -stops, stops)
     }

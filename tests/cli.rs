@@ -130,6 +130,9 @@ fn wrong_use_exits_with_2_and_says_what_is_right() {
         (&["render", "-o", "out.png", "--jitter", "16"], "from 0 to 15"),
         (&["render", "-o", "out.png", "--max-bounces", "65"], "from 0 to 64"),
         (&["render", "-o", "out.png", "--device", "no such device"], "there are: 0 "),
+        (&["render", "-o", "out.png", "--device", "99"], "there are: 0 "),
+        (&["render", "-o", "out.png", "--device", ""], "there are: 0 "),
+        (&["render", "-o", "out.png", "--samples", "16777216", "--jitter", "2"], "from 1 to 16711680"),
         (&["view", "--samples", "0"], "from 1 to 16777216"),
         (&["rendr"], "render"),
     ] {
@@ -151,7 +154,12 @@ fn failures_exit_with_1_and_one_line() {
     for (arguments, part) in [
         (&["render", "none.toml", "-o", "out.png"][..], "cannot read none.toml"),
         (&["render", "bad.toml", "-o", "out.png"], "bad.toml:2: "),
-        (&["render", "-n", "1", "-s", "8x8", "-q", "-o", "none/out.png"], "cannot write none/out.png"),
+        // Known before the work, not after hours of it.
+        (&["render", "-n", "16777216", "-q", "-o", "none/out.png"], "cannot write none/out.png"),
+        (
+            &["render", "-n", "16777216", "-q", "-o", "out.png", "--stats", "none/s.json"],
+            "cannot write none/s.json",
+        ),
         (&["render", "-n", "1", "-s", "8x8", "-q", "-o", "folder.png"], "cannot write folder.png"),
         (&["render", "-n", "1", "-s", "8x8", "-q", "-o", "none/out.exr"], "cannot write none/out.exr"),
     ] {
@@ -236,4 +244,19 @@ fn help_teaches() {
     ] {
         assert!(help.contains(option), "{option}");
     }
+}
+
+/// Catches a panic where the answer cannot be printed: a closed pipe, a full disk.
+#[cfg(target_os = "linux")]
+#[test]
+fn an_answer_that_cannot_be_printed_is_no_panic() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for arguments in [&["scenes"][..], &["devices"], &["render", "-o", "out.png", "-n", "1", "-s", "8x8"]] {
+        let full = std::fs::OpenOptions::new().write(true).open("/dev/full").expect("a full device");
+        let output = thinlens(folder.path()).args(arguments).stdout(full).output().expect("it starts");
+        let run: common::Run = output.into();
+        assert_eq!(run.code, 1, "{}", run.stderr);
+        assert!(run.stderr.contains("standard output") && !run.stderr.contains("panicked"), "{}", run.stderr);
+    }
+    assert!(folder.path().join("out.png").exists());
 }

@@ -191,10 +191,10 @@ fn samples_that_are_not_finite_are_rejected_and_reported() {
         lens_diameter = 0
         focal_distance = 1
         [background]
-        color = [0.5, 0.5, 0.5]
+        color = [1e9, 1e9, 1e9]
         [mirror.burning]
-        color = [1e12, 1e12, 1e12]
-        kr = 1e12
+        color = [1e9, 1e9, 1e9]
+        kr = 1e9
         [[sphere]]
         center = [-0.6, 0, -3]
         radius = 0.5

@@ -236,6 +236,7 @@ impl Viewer {
             std::thread::sleep(Duration::from_millis(10));
         };
         let log: Vec<String> = self.lines.iter().collect();
+        assert!(!log.iter().any(|line| line.contains("validation:")), "{log:#?}");
         assert!(status.success(), "{status}: {log:#?}");
     }
 }

@@ -3,11 +3,12 @@
 
 use crate::error::{Error, Result};
 use crate::renderer::{Pace, Progress, Renderer};
-use crate::settings::{DeviceChoice, Settings};
-use crate::vulkan::{Acquired, Commands, Device, FRAMES_IN_FLIGHT, Instance, Surface, Swapchain};
+use crate::settings::Settings;
+use crate::vulkan::{
+    Acquired, AcquiredImage, Commands, Device, FRAMES_IN_FLIGHT, Instance, Surface, Swapchain,
+};
 use imgui_rs_vulkan_renderer::{DynamicRendering, Options};
 use std::sync::Arc;
-use winit::raw_window_handle::{HasDisplayHandle, HasWindowHandle};
 use winit::window::Window;
 
 /// The order is the order of dropping: imgui's renderer keeps raw handles of the device, and the
@@ -20,17 +21,13 @@ pub(super) struct Graphics {
     next_frame: usize,
     surface: Arc<Surface>,
     device: Arc<Device>,
-    _window: Arc<Window>,
+    window: Arc<Window>,
 }
 
 impl Graphics {
-    pub(super) fn new(window: &Arc<Window>, choice: &DeviceChoice) -> Result<Self> {
-        let handles = || Ok((window.display_handle()?.as_raw(), window.window_handle()?.as_raw()));
-        let (display, handle) = handles()
-            .map_err(|error: winit::raw_window_handle::HandleError| Error::Window(error.to_string()))?;
-        let instance = Instance::new(choice.validation, Some(display))?;
-        let surface = Surface::new(&instance, display, handle)?;
-        let device = Device::open(&instance, choice.device.as_deref(), Some(&surface))?;
+    pub(super) fn new(window: &Arc<Window>, instance: &Arc<Instance>, device: Option<&str>) -> Result<Self> {
+        let surface = Surface::new(instance, window)?;
+        let device = Device::open(instance, device, Some(&surface))?;
         Ok(Self {
             overlay: None,
             swapchain: None,
@@ -39,12 +36,8 @@ impl Graphics {
             next_frame: 0,
             surface,
             device,
-            _window: Arc::clone(window),
+            window: Arc::clone(window),
         })
-    }
-
-    pub(super) fn instance(&self) -> &Arc<Instance> {
-        self.device.instance()
     }
 
     pub(super) fn device_name(&self) -> &str {
@@ -107,14 +100,31 @@ impl Graphics {
         self.renderer.collect(self.next_frame)
     }
 
-    /// Traces for as long as `pace` says, and shows the picture with imgui on top. Shows nothing
-    /// where the window has changed meanwhile. [`Self::wait_for_frame`] comes first.
-    pub(super) fn draw(&mut self, imgui: &mut imgui::Context, pace: Pace) -> Result<()> {
+    /// The next image to draw to. None where the window has changed or is hidden.
+    pub(super) fn acquire(&mut self) -> Result<Option<AcquiredImage>> {
         let Some(swapchain) = &mut self.swapchain else {
-            return Ok(());
+            return Ok(None);
         };
-        let Acquired::Image(image) = swapchain.acquire()? else {
-            self.swapchain = None;
+        Ok(match swapchain.acquire()? {
+            Acquired::Image(image) => Some(image),
+            Acquired::NotReady => None,
+            Acquired::Stale => {
+                self.swapchain = None;
+                None
+            }
+        })
+    }
+
+    /// Traces for as long as `pace` says, and shows the picture on `image` with imgui on top.
+    /// [`Self::wait_for_frame`] comes first.
+    pub(super) fn draw(
+        &mut self,
+        image: &AcquiredImage,
+        imgui: &mut imgui::Context,
+        pace: Pace,
+    ) -> Result<()> {
+        let panel = imgui.render();
+        let Some(swapchain) = &mut self.swapchain else {
             return Ok(());
         };
         let frame = self.next_frame;
@@ -126,11 +136,12 @@ impl Graphics {
         self.renderer.record_resolve(&mut recording);
 
         if let Some(picture) = self.renderer.picture() {
-            swapchain.begin_drawing(&mut recording, &image, picture);
+            swapchain.begin_drawing(&mut recording, image, picture);
             if let Some(overlay) = &mut self.overlay {
-                overlay.cmd_draw(recording.raw(), imgui.render()).map_err(overlay_error)?;
+                overlay.cmd_draw(recording.raw(), panel).map_err(overlay_error)?;
             }
-            if !swapchain.present(recording, &image)? {
+            self.window.pre_present_notify();
+            if !swapchain.present(recording, image)? {
                 self.swapchain = None;
             }
         }

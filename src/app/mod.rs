@@ -6,7 +6,6 @@ mod window;
 
 use crate::error::{Error, Result};
 use crate::settings::{DeviceChoice, Settings};
-use std::sync::{Arc, Mutex, PoisonError};
 use winit::event_loop::EventLoop;
 
 /// What the viewer starts with.
@@ -28,16 +27,10 @@ pub struct Options {
 /// [`Error::NoDisplay`] where no window can be opened at all; otherwise whatever ended the viewer.
 pub fn run(options: Options) -> Result<()> {
     let event_loop = EventLoop::new().map_err(|error| Error::NoDisplay(reason(&error)))?;
-    let validation = Arc::new(Mutex::new(0));
-    let mut viewer = window::Viewer::new(options, Arc::clone(&validation));
+    let mut viewer = window::Viewer::new(options);
     let ended = event_loop.run_app(&mut viewer);
-    let outcome = viewer.finish();
-    ended.map_err(|error| Error::Window(reason(&error)))?;
-    outcome?;
-    match *validation.lock().unwrap_or_else(PoisonError::into_inner) {
-        0 => Ok(()),
-        count => Err(Error::Validation(count)),
-    }
+    viewer.finish()?;
+    ended.map_err(|error| Error::Window(reason(&error)))
 }
 
 /// Without the source file that winit puts in front.

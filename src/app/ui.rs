@@ -1,11 +1,12 @@
 //! The panel.
 
+use crate::error::Error;
 use crate::renderer::Progress;
-use crate::scene::{self, BUILTINS, SceneRef};
-use crate::settings::{DEFAULT_JITTER, MAX_EXPOSURE_STOPS, MIN_FOCAL_DISTANCE, Settings};
+use crate::scene::{self, BUILTINS, MAX_LENGTH, MIN_LENGTH, SceneRef};
+use crate::settings::{DEFAULT_JITTER, MAX_EXPOSURE_STOPS, Settings};
 use imgui::{Condition, SliderFlags, Ui};
 
-/// The points slider goes this far; Ctrl+click types no more than that either.
+/// The points slider goes this far, or as far as was asked for.
 const MAX_POINTS: u32 = 4096;
 
 /// What the panel edits, and what it has to know for it.
@@ -14,6 +15,9 @@ pub(super) struct Panel {
     pub(super) settings: Settings,
     /// What Reset goes back to.
     initial: Settings,
+    /// What the renderer took last.
+    accepted: Settings,
+    max_points: u32,
     /// As named: a built-in or a file.
     scene: String,
     /// The choices: the built-ins, and the file that the viewer was opened with.
@@ -35,7 +39,16 @@ impl Panel {
         if !scenes.contains(&scene) {
             scenes.push(scene.clone());
         }
-        Self { initial: settings.clone(), settings, scene, scenes, message: None, layout: Vec::new() }
+        Self {
+            initial: settings.clone(),
+            accepted: settings.clone(),
+            max_points: settings.samples.max(MAX_POINTS),
+            settings,
+            scene,
+            scenes,
+            message: None,
+            layout: Vec::new(),
+        }
     }
 
     /// Draws the panel and changes the settings as told.
@@ -58,7 +71,7 @@ impl Panel {
                     self.settings.estimator.size = size;
                 }
                 note_item(ui, "Reset", &mut layout);
-                tooltip(ui, "Back to the scene's own lens, and to the start of the picture's settings");
+                tooltip(ui, "Back to the settings that the scene was opened with.");
             });
         if layout != self.layout {
             for (name, [x, y, width, height]) in &layout {
@@ -66,6 +79,22 @@ impl Panel {
             }
             self.layout = layout;
         }
+    }
+
+    /// The renderer took the settings.
+    pub(super) fn accept(&mut self) {
+        if self.accepted != self.settings {
+            self.accepted = self.settings.clone();
+        }
+    }
+
+    /// The renderer did not: back to what it took last, and say why.
+    pub(super) fn refuse(&mut self, error: &Error) {
+        self.message = Some(error.to_string());
+        let size = self.settings.estimator.size;
+        self.settings = self.accepted.clone();
+        self.settings.estimator.size = size;
+        self.scene.clone_from(&self.settings.estimator.scene.name);
     }
 
     fn scene_chooser(&mut self, ui: &Ui) {
@@ -89,9 +118,12 @@ impl Panel {
         match scene::load(&name) {
             Ok(loaded) => {
                 let mut settings = Settings::of_scene(SceneRef::new(loaded));
-                settings.estimator.size = self.settings.estimator.size;
-                settings.samples = self.settings.samples;
-                settings.view = self.settings.view;
+                let (now, estimator) = (&self.settings, &mut settings.estimator);
+                estimator.size = now.estimator.size;
+                estimator.jitter = now.estimator.jitter;
+                estimator.seed = now.estimator.seed;
+                settings.samples = now.samples;
+                settings.view = now.view;
                 self.initial = settings.clone();
                 self.settings = settings;
                 self.scene = name;
@@ -107,8 +139,9 @@ impl Panel {
         let initial = &self.initial.estimator.lens;
         let widest =
             if initial.diameter > 0.0 { 8.0 * initial.diameter } else { 0.1 * initial.focal_distance };
-        let nearest = (initial.focal_distance / 20.0).max(MIN_FOCAL_DISTANCE);
-        let farthest = initial.focal_distance * 20.0;
+        let nearest = (initial.focal_distance / 20.0).max(MIN_LENGTH);
+        let farthest = (initial.focal_distance * 20.0).min(MAX_LENGTH);
+        let widest = widest.min(MAX_LENGTH);
         let estimator = &mut self.settings.estimator;
 
         named(
@@ -135,14 +168,14 @@ impl Panel {
                     .build(&mut estimator.lens.focal_distance);
             },
         );
-        let samples = &mut self.settings.samples;
+        let (samples, max_points) = (&mut self.settings.samples, self.max_points);
         named(
             ui,
             "Anti-aliasing points per pixel",
             "How many rays are averaged in each pixel: more give less noise. Raising it goes on from what is there.",
             layout,
             |id| {
-                ui.slider_config(id, 1, MAX_POINTS.max(*samples)).flags(logarithmic).build(samples);
+                ui.slider_config(id, 1, max_points).flags(logarithmic).build(samples);
             },
         );
 

@@ -5,13 +5,15 @@ use super::graphics::Graphics;
 use super::ui::{Panel, Status};
 use crate::error::{Error, Result};
 use crate::renderer::Pace;
+use crate::vulkan::Instance;
 use imgui_winit_support::{HiDpiMode, WinitPlatform};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 use winit::application::ApplicationHandler;
 use winit::dpi::PhysicalSize;
 use winit::event::{Event, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow};
+use winit::raw_window_handle::HasDisplayHandle;
 use winit::window::{Window, WindowId};
 
 const DEFAULT_SIZE: [u32; 2] = [1280, 720];
@@ -25,8 +27,8 @@ const FRAMES_AFTER_EVENT: u32 = 3;
 /// The application as winit drives it.
 pub(super) struct Viewer {
     options: Options,
-    validation: Arc<Mutex<usize>>,
     open: Option<Open>,
+    instance: Option<Arc<Instance>>,
     error: Option<Error>,
 }
 
@@ -39,18 +41,31 @@ struct Open {
     last_frame: Instant,
     frames_to_draw: u32,
     shown: (u32, u32),
-    validation: Arc<Mutex<usize>>,
+    occluded: bool,
 }
 
 impl Viewer {
-    pub(super) fn new(options: Options, validation: Arc<Mutex<usize>>) -> Self {
-        Self { options, validation, open: None, error: None }
+    pub(super) fn new(options: Options) -> Self {
+        Self { options, open: None, instance: None, error: None }
     }
 
     /// Closes the window, if it is still open, and says what ended the viewer.
     pub(super) fn finish(self) -> Result<()> {
         drop(self.open);
-        self.error.map_or(Ok(()), Err)
+        self.error.map_or(Ok(()), Err)?;
+        // The layer speaks until the device is gone.
+        match self.instance.map_or(0, |instance| instance.validation_messages().len()) {
+            0 => Ok(()),
+            count => Err(Error::Validation(count)),
+        }
+    }
+
+    fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<()> {
+        let display = event_loop.display_handle().map_err(|error| Error::Window(error.to_string()))?;
+        let instance = Instance::new(self.options.device.validation, Some(display.as_raw()))?;
+        self.instance = Some(Arc::clone(&instance));
+        self.open = Some(Open::new(event_loop, &self.options, &instance)?);
+        Ok(())
     }
 
     fn fail(&mut self, event_loop: &ActiveEventLoop, error: Error) {
@@ -62,9 +77,8 @@ impl Viewer {
 impl ApplicationHandler for Viewer {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
         if self.open.is_none() {
-            match Open::new(event_loop, &self.options, &self.validation) {
-                Ok(open) => self.open = Some(open),
-                Err(error) => self.fail(event_loop, error),
+            if let Err(error) = self.open(event_loop) {
+                self.fail(event_loop, error);
             }
         }
     }
@@ -81,8 +95,10 @@ impl ApplicationHandler for Viewer {
                 }
             }
             event => {
-                if let WindowEvent::Resized(_) = event {
-                    open.graphics.refit();
+                match event {
+                    WindowEvent::Resized(_) => open.graphics.refit(),
+                    WindowEvent::Occluded(occluded) => open.occluded = occluded,
+                    _ => {}
                 }
                 open.frames_to_draw = FRAMES_AFTER_EVENT;
                 let scale = open.platform.hidpi_factor();
@@ -116,7 +132,7 @@ impl ApplicationHandler for Viewer {
 }
 
 impl Open {
-    fn new(event_loop: &ActiveEventLoop, options: &Options, validation: &Arc<Mutex<usize>>) -> Result<Self> {
+    fn new(event_loop: &ActiveEventLoop, options: &Options, instance: &Arc<Instance>) -> Result<Self> {
         let [width, height] = options.size.unwrap_or(DEFAULT_SIZE);
         let attributes = Window::default_attributes()
             .with_title("thinlens")
@@ -124,7 +140,7 @@ impl Open {
             .with_inner_size(PhysicalSize::new(width, height));
         let window = event_loop.create_window(attributes);
         let window = Arc::new(window.map_err(|error| Error::Window(error.to_string()))?);
-        let graphics = Graphics::new(&window, &options.device)?;
+        let graphics = Graphics::new(&window, instance, options.device.device.as_deref())?;
 
         let mut imgui = imgui::Context::create();
         imgui.set_ini_filename(None);
@@ -140,7 +156,7 @@ impl Open {
             last_frame: Instant::now(),
             frames_to_draw: FRAMES_AFTER_EVENT,
             shown: (0, 0),
-            validation: Arc::clone(validation),
+            occluded: false,
         };
         open.load_fonts();
         open.style();
@@ -149,7 +165,7 @@ impl Open {
 
     fn is_hidden(&self) -> bool {
         let size = self.window.inner_size();
-        size.width == 0 || size.height == 0 || self.window.is_minimized() == Some(true)
+        self.occluded || size.width == 0 || size.height == 0 || self.window.is_minimized() == Some(true)
     }
 
     fn load_fonts(&mut self) {
@@ -185,6 +201,10 @@ impl Open {
         log::trace!("frame");
         self.frames_to_draw = self.frames_to_draw.saturating_sub(1);
         self.graphics.wait_for_frame()?;
+        let Some(image) = self.graphics.acquire()? else {
+            self.frames_to_draw += 1;
+            return Ok(());
+        };
 
         let io = self.imgui.io_mut();
         io.update_delta_time(self.last_frame.elapsed());
@@ -203,10 +223,15 @@ impl Open {
         self.platform.prepare_render(ui, &self.window);
 
         self.panel.settings.estimator.size = size;
-        self.graphics.set(&self.panel.settings)?;
+        if let Err(error) = self.graphics.set(&self.panel.settings) {
+            // A scene that does not fit, say. If what was there before fails too, it is over.
+            self.panel.refuse(&error);
+            self.graphics.set(&self.panel.settings)?;
+        }
+        self.panel.accept();
         let finished_before = self.graphics.finished();
         let pace = Pace { budget: if dragging { DRAGGING_BUDGET } else { RESTING_BUDGET }, preview: true };
-        self.graphics.draw(&mut self.imgui, pace)?;
+        self.graphics.draw(&image, &mut self.imgui, pace)?;
         if !finished_before && self.graphics.finished() {
             // What was just recorded is on the screen; the panel's figures come a frame later.
             self.frames_to_draw = self.frames_to_draw.max(FRAMES_AFTER_EVENT);
@@ -216,8 +241,6 @@ impl Open {
     }
 
     fn report(&mut self) {
-        *self.validation.lock().unwrap_or_else(PoisonError::into_inner) =
-            self.graphics.instance().validation_messages().len();
         let shown = (self.graphics.progress().samples, self.panel.settings.samples);
         if shown != self.shown {
             let [width, height] = self.panel.settings.estimator.size;

@@ -5,8 +5,9 @@ use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, WritableImage,
 };
 use std::ffi::OsString;
-use std::io::{BufWriter, Cursor, Write};
-use std::path::Path;
+use std::fs::File;
+use std::io::{Cursor, Write};
+use std::path::{Path, PathBuf};
 
 /// The formats of pictures, chosen by the file's name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,7 +34,7 @@ impl PictureFormat {
 ///
 /// # Errors
 /// [`Error::Write`].
-pub fn write_png(path: &Path, [width, height]: [u32; 2], rgba: &[u8]) -> Result<()> {
+pub fn write_png(file: PendingFile, [width, height]: [u32; 2], rgba: &[u8]) -> Result<()> {
     let rgb: Vec<u8> = rgba.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
     let encode = || -> Result<Vec<u8>, png::EncodingError> {
         let mut bytes = Vec::new();
@@ -45,8 +46,8 @@ pub fn write_png(path: &Path, [width, height]: [u32; 2], rgba: &[u8]) -> Result<
         writer.finish()?;
         Ok(bytes)
     };
-    let bytes = encode().map_err(|error| failed(path, &error))?;
-    write_whole(path, &bytes)
+    let bytes = encode().map_err(|error| failed(&file.path, &error))?;
+    file.write(&bytes)
 }
 
 /// Writes the film, given as mean r, g, b and count row by row from the top left: linear f32
@@ -54,7 +55,7 @@ pub fn write_png(path: &Path, [width, height]: [u32; 2], rgba: &[u8]) -> Result<
 ///
 /// # Errors
 /// [`Error::Write`].
-pub fn write_exr(path: &Path, [width, height]: [u32; 2], film: &[[f32; 4]]) -> Result<()> {
+pub fn write_exr(file: PendingFile, [width, height]: [u32; 2], film: &[[f32; 4]]) -> Result<()> {
     let channel = |name: &str, index: usize| {
         let values = film.iter().map(|pixel| pixel[index]).collect();
         AnyChannel::new(name, FlatSamples::F32(values))
@@ -68,30 +69,51 @@ pub fn write_exr(path: &Path, [width, height]: [u32; 2], film: &[[f32; 4]]) -> R
     );
     let mut bytes = Cursor::new(Vec::new());
     let written = Image::from_layer(layer).write().to_buffered(&mut bytes);
-    written.map_err(|error| failed(path, &error))?;
-    write_whole(path, bytes.get_ref())
+    written.map_err(|error| failed(&file.path, &error))?;
+    file.write(bytes.get_ref())
 }
 
-/// Writes a file beside its place and renames it, so that nobody sees half of it.
-///
-/// # Errors
-/// [`Error::Write`].
-pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
-    let mut name = OsString::from(".");
-    name.push(path.file_name().unwrap_or_default());
-    name.push(format!(".{}.part", std::process::id()));
-    let part = path.with_file_name(name);
-    let write = || {
-        let mut file = BufWriter::new(std::fs::File::create(&part)?);
-        file.write_all(bytes)?;
-        file.into_inner()?.sync_all()?;
-        std::fs::rename(&part, path)
-    };
-    write().map_err(|error| {
-        // It may never have been created.
-        let _ = std::fs::remove_file(&part);
-        failed(path, &error)
-    })
+/// A file that is written beside its place and renamed, so that nobody sees half of it. Made before
+/// the work, so that a wrong path is known before it.
+pub struct PendingFile {
+    path: PathBuf,
+    part: PathBuf,
+    file: File,
+}
+
+impl PendingFile {
+    /// Creates the file beside `path`.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn create(path: &Path) -> Result<Self> {
+        if path.is_dir() {
+            return Err(failed(path, &"it is a folder"));
+        }
+        let mut name = OsString::from(".");
+        name.push(path.file_name().unwrap_or_default());
+        name.push(format!(".{}.part", std::process::id()));
+        let part = path.with_file_name(name);
+        let file = File::create(&part).map_err(|error| failed(path, &error))?;
+        Ok(Self { path: path.to_path_buf(), part, file })
+    }
+
+    /// Writes it whole and puts it in its place.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn write(mut self, bytes: &[u8]) -> Result<()> {
+        let written = self.file.write_all(bytes).and_then(|()| self.file.sync_all());
+        let placed = written.and_then(|()| std::fs::rename(&self.part, &self.path));
+        placed.map_err(|error| failed(&self.path, &error))
+    }
+}
+
+impl Drop for PendingFile {
+    fn drop(&mut self) {
+        // Gone already where it was put in its place.
+        let _ = std::fs::remove_file(&self.part);
+    }
 }
 
 fn failed(path: &Path, reason: &dyn std::fmt::Display) -> Error {

@@ -1,7 +1,7 @@
 //! Renders settings to a file.
 
 use super::progress::ProgressDisplay;
-use super::{PictureFormat, Stats, write_exr, write_png};
+use super::{PendingFile, PictureFormat, Stats, say, write_exr, write_png};
 use crate::error::{Error, Result};
 use crate::renderer::Renderer;
 use crate::settings::{DeviceChoice, Settings};
@@ -33,14 +33,15 @@ pub fn render(job: &Job) -> Result<()> {
     let format = PictureFormat::of(&job.output).ok_or_else(|| Error::UnknownFormat(job.output.clone()))?;
     let instance = Instance::new(job.device.validation, None)?;
     let rendered = render_on(&instance, job, format);
-    // The layer speaks until the device is gone.
+    // The layer speaks until the device is gone. What went wrong first is the better reason.
+    rendered?;
     match instance.validation_messages().len() {
-        0 => rendered,
+        0 => Ok(()),
         count => Err(Error::Validation(count)),
     }
 }
 
-/// With no display: renders to `thinlens.png` what the viewer would have shown, and says so.
+/// With no display: renders the scene to `thinlens.png` instead, and says so.
 ///
 /// # Errors
 /// As [`render`].
@@ -48,12 +49,13 @@ pub fn render_instead(settings: Settings, scene: &str, device: DeviceChoice, why
     eprintln!("no display for the viewer ({why}); rendering the scene to a file instead");
     let output = std::env::current_dir().unwrap_or_default().join("thinlens.png");
     render(&Job { settings, output: output.clone(), stats: None, device, quiet: false })?;
-    println!("the picture is {}", output.display());
-    println!("next, try: thinlens render {scene} --lens-diameter 0 -o pinhole.png");
-    Ok(())
+    say(&format!("the picture is {}", output.display()))?;
+    say(&format!("next, try: thinlens render {scene} --lens-diameter 0 -o pinhole.png"))
 }
 
 fn render_on(instance: &Arc<Instance>, job: &Job, format: PictureFormat) -> Result<()> {
+    let output = PendingFile::create(&job.output)?;
+    let stats_output = job.stats.as_deref().map(PendingFile::create).transpose()?;
     let device = Device::open(instance, job.device.device.as_deref(), None)?;
     let size @ [width, height] = job.settings.estimator.size;
     let mut renderer = Renderer::new(&device)?;
@@ -65,8 +67,8 @@ fn render_on(instance: &Arc<Instance>, job: &Job, format: PictureFormat) -> Resu
     let seconds = display.finish().as_secs_f64();
 
     match format {
-        PictureFormat::Png => write_png(&job.output, size, &renderer.read_picture()?)?,
-        PictureFormat::Exr => write_exr(&job.output, size, &renderer.read_film()?)?,
+        PictureFormat::Png => write_png(output, size, &renderer.read_picture()?)?,
+        PictureFormat::Exr => write_exr(output, size, &renderer.read_film()?)?,
     }
     let progress = renderer.progress();
     let stats = Stats {
@@ -82,8 +84,8 @@ fn render_on(instance: &Arc<Instance>, job: &Job, format: PictureFormat) -> Resu
         device: device.info().name.clone(),
         driver: device.info().driver.clone(),
     };
-    if let Some(path) = &job.stats {
-        stats.write(path)?;
+    if let Some(file) = stats_output {
+        stats.write(file)?;
     }
     if stats.rejected_samples > 0 {
         eprintln!(
@@ -92,13 +94,13 @@ fn render_on(instance: &Arc<Instance>, job: &Job, format: PictureFormat) -> Resu
         );
     }
     if !job.quiet {
-        println!(
+        say(&format!(
             "{}: {width}x{height}, {} samples per pixel, {seconds:.2} s, {:.1} M samples/s on {}",
             job.output.display(),
             stats.samples_per_pixel,
             stats.msamples_per_second,
             stats.device,
-        );
+        ))?;
     }
     Ok(())
 }

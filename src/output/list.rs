@@ -1,5 +1,6 @@
 //! What there is to choose from, on standard output.
 
+use super::say;
 use crate::error::{Error, Result};
 use crate::scene::BUILTINS;
 use crate::vulkan::Instance;
@@ -7,10 +8,10 @@ use crate::vulkan::Instance;
 /// Prints the built-in scenes, a line each.
 ///
 /// # Errors
-/// None.
+/// [`Error::Output`].
 pub fn list_scenes() -> Result<()> {
     for scene in BUILTINS {
-        println!("{:16} {}", scene.name, scene.about);
+        say(&format!("{:16} {}", scene.name, scene.about))?;
     }
     Ok(())
 }
@@ -26,7 +27,7 @@ pub fn list_devices() -> Result<()> {
     }
     for device in devices {
         let fault = device.unusable.map_or_else(String::new, |fault| format!(", cannot be used: {fault}"));
-        println!("{}  {} ({}, {}{fault})", device.index, device.name, device.kind, device.driver);
+        say(&format!("{}  {} ({}, {}{fault})", device.index, device.name, device.kind, device.driver))?;
     }
     Ok(())
 }

@@ -6,7 +6,15 @@ mod list;
 mod progress;
 mod stats;
 
-pub use file::{PictureFormat, write_exr, write_png, write_whole};
+pub use file::{PendingFile, PictureFormat, write_exr, write_png};
 pub use headless::{Job, render, render_instead};
 pub use list::{list_devices, list_scenes};
 pub use stats::Stats;
+
+use crate::error::{Error, Result};
+use std::io::Write;
+
+/// Prints a line of the program's answer. A closed pipe or a full disk is an error, not a panic.
+fn say(line: &str) -> Result<()> {
+    writeln!(std::io::stdout(), "{line}").map_err(Error::Output)
+}

@@ -1,9 +1,8 @@
 //! What `--stats` writes.
 
-use super::write_whole;
+use super::PendingFile;
 use crate::error::Result;
 use serde::Serialize;
-use std::path::Path;
 
 /// Figures of a finished picture.
 #[derive(Debug, Clone, Serialize)]
@@ -37,9 +36,9 @@ impl Stats {
     ///
     /// # Errors
     /// [`crate::error::Error::Write`].
-    pub fn write(&self, path: &Path) -> Result<()> {
+    pub fn write(&self, file: PendingFile) -> Result<()> {
         let mut json = serde_json::to_string_pretty(self).expect("plain numbers and strings are JSON");
         json.push('\n');
-        write_whole(path, json.as_bytes())
+        file.write(json.as_bytes())
     }
 }

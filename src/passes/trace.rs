@@ -19,7 +19,7 @@ impl SceneBuffers {
     /// Uploads a scene.
     ///
     /// # Errors
-    /// [`crate::error::Error::DeviceMemory`], or what Vulkan says.
+    /// [`crate::error::Error::Memory`], or what Vulkan says.
     pub fn new(device: &Arc<Device>, scene: &SceneData) -> Result<Self> {
         let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
         Ok(Self {

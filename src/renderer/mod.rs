@@ -99,7 +99,7 @@ impl Renderer {
     /// already holds more samples than wanted.
     ///
     /// # Errors
-    /// [`crate::error::Error::OutOfRange`], [`crate::error::Error::DeviceMemory`], or what Vulkan
+    /// [`crate::error::Error::OutOfRange`], [`crate::error::Error::Memory`], or what Vulkan
     /// says.
     pub fn set(&mut self, settings: &Settings) -> Result<()> {
         settings.check()?;
@@ -352,7 +352,7 @@ impl Renderer {
     /// The film: mean r, g, b and count of each pixel, row by row from the top left.
     ///
     /// # Errors
-    /// [`crate::error::Error::DeviceMemory`], or what Vulkan says.
+    /// [`crate::error::Error::Memory`], or what Vulkan says.
     pub fn read_film(&mut self) -> Result<Vec<[f32; 4]>> {
         let bytes = self.read_image(|film| &film.film)?;
         Ok(bytemuck::allocation::pod_collect_to_vec(&bytes))
@@ -361,7 +361,7 @@ impl Renderer {
     /// The picture: r, g, b, 255 of each pixel, sRGB, row by row from the top left.
     ///
     /// # Errors
-    /// [`crate::error::Error::DeviceMemory`], or what Vulkan says.
+    /// [`crate::error::Error::Memory`], or what Vulkan says.
     pub fn read_picture(&mut self) -> Result<Vec<u8>> {
         self.read_image(|film| &film.picture)
     }

@@ -3,8 +3,10 @@
 
 use super::file::Fault;
 use super::material_format::{LightColor, MaterialList, MatteTable, MirrorTable, Named, PhongTable, white};
-use super::number::{Count, Extent, NonNegative, Positive, Rgb, Vector, VfovDegrees};
-use super::{Aabb, Background, Camera, Lens, Light, LightKind, Plane, Scene, Shaded, Sphere, Triangle};
+use super::number::{Count, Extent, NonNegative, Positive, Rgb, Vector};
+use super::{
+    Aabb, Background, Camera, Lens, Light, LightKind, Plane, Scene, Shaded, Sphere, Triangle, VFOV_DEGREES,
+};
 use glam::Vec3;
 use serde::Deserialize;
 use toml::Spanned;
@@ -50,7 +52,7 @@ struct CameraTable {
     look_at: Vector,
     #[serde(default = "upwards")]
     up: Vector,
-    vfov_degrees: Option<VfovDegrees>,
+    vfov_degrees: Option<Positive>,
     view_distance: Option<Positive>,
     pixel_size: Option<Positive>,
     lens_diameter: NonNegative,
@@ -217,7 +219,7 @@ fn camera(table: &Spanned<CameraTable>, size: [u32; 2]) -> Result<(Camera, Lens)
     let span = table;
     let table = table.get_ref();
     let vfov_radians = match (&table.vfov_degrees, &table.view_distance, &table.pixel_size) {
-        (Some(degrees), None, None) => degrees.0.to_radians(),
+        (Some(degrees), None, None) => degrees.f64().to_radians(),
         (None, Some(distance), Some(pixel)) => {
             let half_height = 0.5 * f64::from(size[1]) * pixel.f64();
             2.0 * (half_height / distance.f64()).atan()
@@ -227,6 +229,11 @@ fn camera(table: &Spanned<CameraTable>, size: [u32; 2]) -> Result<(Camera, Lens)
             return Err(fault(span, message));
         }
     };
+    if !VFOV_DEGREES.contains(&vfov_radians.to_degrees()) {
+        let (degrees, low, high) = (vfov_radians.to_degrees(), VFOV_DEGREES.start(), VFOV_DEGREES.end());
+        let message = format!("a vertical field of view of {degrees} degrees must be from {low} to {high}");
+        return Err(fault(span, &message));
+    }
     let camera = Camera { eye: table.eye.0, look_at: table.look_at.0, up: table.up.0, vfov_radians };
     if let Some(message) = camera.fault() {
         return Err(fault(span, message));

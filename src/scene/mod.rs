@@ -25,6 +25,13 @@ pub const MAX_EXTENT: u32 = 16384;
 /// The largest number of reflections that can be followed.
 pub const MAX_BOUNCES: u32 = 64;
 
+/// The smallest length that divides others, in scene units: its inverse stays finite in f32.
+pub const MIN_LENGTH: f32 = 1e-6;
+/// The largest length, colour or radiance: squares of cross products still fit in f32.
+pub const MAX_LENGTH: f32 = 1e9;
+/// The smallest and largest vertical field of view, in degrees.
+pub const VFOV_DEGREES: std::ops::RangeInclusive<f64> = 0.01..=175.0;
+
 /// A scene: shapes, materials, lights, and the camera and picture size it was composed for.
 #[derive(Debug)]
 pub struct Scene {

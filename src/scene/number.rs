@@ -1,13 +1,8 @@
 //! Numbers of the scene file, checked as they are read, so that an error names their line.
 
-use super::{MAX_BOUNCES, MAX_EXTENT};
+use super::{MAX_BOUNCES, MAX_EXTENT, MAX_LENGTH, MIN_LENGTH};
 use glam::Vec3;
 use serde::Deserialize;
-
-/// A length that divides others: at least this, so that its inverse stays finite in f32.
-const SMALLEST_POSITIVE: f64 = 1e-6;
-/// Beyond this, squares leave f32.
-const LARGEST: f64 = 1e12;
 
 #[derive(Deserialize)]
 #[serde(try_from = "f64")]
@@ -16,10 +11,6 @@ pub(super) struct Positive(f64);
 #[derive(Deserialize, Default)]
 #[serde(try_from = "f64")]
 pub(super) struct NonNegative(pub(super) f32);
-
-#[derive(Deserialize)]
-#[serde(try_from = "f64")]
-pub(super) struct VfovDegrees(pub(super) f64);
 
 #[derive(Deserialize)]
 #[serde(try_from = "[f64; 3]")]
@@ -37,14 +28,16 @@ pub(super) struct Extent(pub(super) u32);
 #[serde(try_from = "i64")]
 pub(super) struct Count(pub(super) u32);
 
+const LARGEST: f64 = MAX_LENGTH as f64;
+
 impl TryFrom<f64> for Positive {
     type Error = String;
 
     fn try_from(value: f64) -> Result<Self, String> {
-        if (SMALLEST_POSITIVE..=LARGEST).contains(&value) {
+        if (f64::from(MIN_LENGTH)..=LARGEST).contains(&value) {
             Ok(Self(value))
         } else {
-            Err(format!("{value} must be from {SMALLEST_POSITIVE:e} to {LARGEST:e}"))
+            Err(format!("{value} must be from {MIN_LENGTH:e} to {LARGEST:e}"))
         }
     }
 }
@@ -67,18 +60,6 @@ impl TryFrom<f64> for NonNegative {
             Ok(Self(value as f32))
         } else {
             Err(format!("{value} must be from 0 to {LARGEST:e}"))
-        }
-    }
-}
-
-impl TryFrom<f64> for VfovDegrees {
-    type Error = String;
-
-    fn try_from(value: f64) -> Result<Self, String> {
-        if (0.01..=175.0).contains(&value) {
-            Ok(Self(value))
-        } else {
-            Err(format!("a vertical field of view of {value} degrees must be from 0.01 to 175"))
         }
     }
 }

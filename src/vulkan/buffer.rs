@@ -19,7 +19,6 @@ pub enum Residence {
 /// A storage buffer with its memory.
 pub struct Buffer {
     pub(super) raw: vk::Buffer,
-    size: u64,
     allocation: Option<Allocation>,
     device: Arc<Device>,
 }
@@ -28,8 +27,8 @@ impl Buffer {
     /// A buffer of at least `size` bytes, its contents undefined.
     ///
     /// # Errors
-    /// [`Error::DeviceMemory`], or what Vulkan says.
-    pub fn new(device: &Arc<Device>, name: &str, size: u64, residence: Residence) -> Result<Self> {
+    /// [`Error::Memory`], or what Vulkan says.
+    pub fn new(device: &Arc<Device>, name: &'static str, size: u64, residence: Residence) -> Result<Self> {
         let size = size.max(16); // Vulkan has no empty buffers, and a scene may have no triangles.
         let info = vk::BufferCreateInfo::default().size(size).usage(
             vk::BufferUsageFlags::STORAGE_BUFFER
@@ -38,7 +37,7 @@ impl Buffer {
         );
         // SAFETY: the device is valid; the handle goes into its guard before anything else.
         let raw = check("creating a buffer", unsafe { device.raw.create_buffer(&info, None) })?;
-        let mut buffer = Self { raw, size, allocation: None, device: Arc::clone(device) };
+        let mut buffer = Self { raw, allocation: None, device: Arc::clone(device) };
         // SAFETY: raw is a buffer of this device.
         let requirements = unsafe { device.raw.get_buffer_memory_requirements(raw) };
         let location = match residence {
@@ -57,8 +56,12 @@ impl Buffer {
     /// A buffer on the device that holds `data`.
     ///
     /// # Errors
-    /// [`Error::DeviceMemory`], or what Vulkan says.
-    pub fn upload<T: bytemuck::NoUninit>(device: &Arc<Device>, name: &str, data: &[T]) -> Result<Self> {
+    /// [`Error::Memory`], or what Vulkan says.
+    pub fn upload<T: bytemuck::NoUninit>(
+        device: &Arc<Device>,
+        name: &'static str,
+        data: &[T],
+    ) -> Result<Self> {
         let bytes: &[u8] = bytemuck::cast_slice(data);
         let buffer = Self::new(device, name, bytes.len() as u64, Residence::Device)?;
         if !bytes.is_empty() {
@@ -84,11 +87,6 @@ impl Buffer {
         let mapped = self.allocation.as_ref().and_then(Allocation::mapped_slice);
         mapped.expect("a host buffer is mapped")
     }
-
-    /// Its size in bytes.
-    pub fn size(&self) -> u64 {
-        self.size
-    }
 }
 
 impl Drop for Buffer {
@@ -101,7 +99,7 @@ impl Drop for Buffer {
 
 pub(super) fn allocate(
     device: &Device,
-    name: &str,
+    name: &'static str,
     requirements: vk::MemoryRequirements,
     location: MemoryLocation,
     linear: bool,
@@ -115,7 +113,7 @@ pub(super) fn allocate(
     };
     device.allocator().allocate(&description).map_err(|error| {
         log::debug!("allocating {name}: {error}");
-        Error::DeviceMemory { what: name.to_owned(), bytes: requirements.size }
+        Error::Memory { what: name }
     })
 }
 

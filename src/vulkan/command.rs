@@ -12,6 +12,8 @@ pub struct Commands {
     pool: vk::CommandPool,
     buffer: vk::CommandBuffer,
     fence: vk::Fence,
+    /// Whether the fence is, or will be, signalled by a submission.
+    submitted: bool,
     device: Arc<Device>,
 }
 
@@ -30,12 +32,13 @@ impl Commands {
             pool: vk::CommandPool::null(),
             buffer: vk::CommandBuffer::null(),
             fence: vk::Fence::null(),
+            submitted: false,
             device: Arc::clone(device),
         };
         let pool = vk::CommandPoolCreateInfo::default()
             .flags(vk::CommandPoolCreateFlags::RESET_COMMAND_BUFFER)
             .queue_family_index(device.queue_family);
-        let fence = vk::FenceCreateInfo::default().flags(vk::FenceCreateFlags::SIGNALED);
+        let fence = vk::FenceCreateInfo::default();
         // SAFETY: the device is valid; each handle is in its guard before the next call.
         unsafe {
             commands.pool = check("creating a command pool", device.raw.create_command_pool(&pool, None))?;
@@ -60,7 +63,10 @@ impl Commands {
     /// # Errors
     /// What Vulkan says: a lost device.
     pub fn wait(&self) -> Result<()> {
-        // SAFETY: the fence is of this device.
+        if !self.submitted {
+            return Ok(());
+        }
+        // SAFETY: the fence is of this device, and a submission signals it.
         let result = unsafe { self.device.raw.wait_for_fences(&[self.fence], true, u64::MAX) };
         check("waiting for the device", result)
     }
@@ -72,8 +78,13 @@ impl Commands {
     pub fn begin(&mut self) -> Result<Recording<'_>> {
         self.wait()?;
         let info = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
-        // SAFETY: the buffer is not in use, and beginning it resets it.
-        let result = unsafe { self.device.raw.begin_command_buffer(self.buffer, &info) };
+        // SAFETY: the buffer is not in use. It is reset by hand, for a recording may have been dropped
+        // before it was submitted.
+        let result = unsafe {
+            let reset = vk::CommandBufferResetFlags::empty();
+            let result = self.device.raw.reset_command_buffer(self.buffer, reset);
+            result.and_then(|()| self.device.raw.begin_command_buffer(self.buffer, &info))
+        };
         check("beginning a command buffer", result)?;
         Ok(Recording { commands: self })
     }
@@ -81,11 +92,10 @@ impl Commands {
 
 impl Drop for Commands {
     fn drop(&mut self) {
+        // A lost device is done as well.
+        let _ = self.wait();
         // SAFETY: the last submission is waited for; null handles are allowed.
         unsafe {
-            if self.fence != vk::Fence::null() {
-                let _ = self.device.raw.wait_for_fences(&[self.fence], true, u64::MAX);
-            }
             self.device.raw.destroy_fence(self.fence, None);
             self.device.raw.destroy_command_pool(self.pool, None);
         }
@@ -248,20 +258,22 @@ impl Recording<'_> {
         wait: &[vk::SemaphoreSubmitInfo<'_>],
         signal: &[vk::SemaphoreSubmitInfo<'_>],
     ) -> Result<()> {
-        let device = &self.commands.device;
+        let device = Arc::clone(&self.commands.device);
         let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(self.raw())];
         let submit = [vk::SubmitInfo2::default()
             .command_buffer_infos(&buffers)
             .wait_semaphore_infos(wait)
             .signal_semaphore_infos(signal)];
-        // SAFETY: the recording ends here; the fence is passed, as `begin` waited for it, and is
-        // reset only when a submission that signals it follows at once.
+        self.commands.submitted = false;
+        // SAFETY: the recording ends here; `begin` waited for the fence, so it is not in use.
         unsafe {
             check("ending a command buffer", device.raw.end_command_buffer(self.raw()))?;
             check("resetting a fence", device.raw.reset_fences(&[self.commands.fence]))?;
             let result = device.raw.queue_submit2(device.queue, &submit, self.commands.fence);
-            check("submitting commands", result)
+            check("submitting commands", result)?;
         }
+        self.commands.submitted = true;
+        Ok(())
     }
 
     pub(super) fn depend(&mut self, dependency: &vk::DependencyInfo<'_>) {

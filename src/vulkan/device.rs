@@ -9,6 +9,10 @@ use std::ffi::CStr;
 use std::mem::ManuallyDrop;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+/// How many storage buffers the trace pass binds. Vulkan promises four; every known driver of
+/// Vulkan 1.3 has more.
+const MOST_STORAGE_BUFFERS: u32 = 9;
+
 /// A device of the system, usable or not.
 #[derive(Debug, Clone)]
 pub struct DeviceInfo {
@@ -97,9 +101,17 @@ impl Instance {
             info.unusable = Some(format!("Vulkan {major}.{minor}, needs 1.3"));
             return Ok(info);
         }
+        if properties.limits.max_per_stage_descriptor_storage_buffers < MOST_STORAGE_BUFFERS {
+            info.unusable =
+                Some(format!("a shader can bind fewer than {MOST_STORAGE_BUFFERS} storage buffers"));
+            return Ok(info);
+        }
         match self.queue_family(raw, surface)? {
             Some(family) => info.queue_family = family,
-            None => info.unusable = Some("no queue that computes, draws and presents".into()),
+            None if surface.is_some() => {
+                info.unusable = Some("no queue that computes, draws and presents".into())
+            }
+            None => info.unusable = Some("no queue that computes".into()),
         }
         Ok(info)
     }
@@ -107,7 +119,9 @@ impl Instance {
     fn queue_family(&self, raw: vk::PhysicalDevice, surface: Option<&Surface>) -> Result<Option<u32>> {
         // SAFETY: raw is a device of this instance.
         let families = unsafe { self.raw.get_physical_device_queue_family_properties(raw) };
-        let wanted = vk::QueueFlags::COMPUTE | vk::QueueFlags::GRAPHICS;
+        // Drawing is for the window's panel alone.
+        let graphics = if surface.is_some() { vk::QueueFlags::GRAPHICS } else { vk::QueueFlags::empty() };
+        let wanted = vk::QueueFlags::COMPUTE | graphics;
         for (family, properties) in (0..).zip(&families) {
             let presents = surface.map_or(Ok(true), |surface| surface.presents(raw, family))?;
             if properties.queue_flags.contains(wanted) && presents {
@@ -215,13 +229,8 @@ impl Device {
     /// # Errors
     /// What Vulkan says: a lost device.
     pub fn wait_idle(&self) -> Result<()> {
-        // SAFETY: the device is valid, and its queue is used from one thread.
+        // SAFETY: the device is valid. Renderer and window use its queue from one thread.
         check("waiting for the device", unsafe { self.raw.device_wait_idle() })
-    }
-
-    /// Bytes that the allocator holds for buffers and images now.
-    pub fn allocated_bytes(&self) -> u64 {
-        self.allocator().generate_report().total_allocated_bytes
     }
 
     /// The raw handles, for imgui's renderer, which is written against them. It must be dropped
@@ -269,15 +278,19 @@ fn choose<'a>(devices: &'a [DeviceInfo], wanted: Option<&str>) -> Result<&'a Dev
             Error::NoDevice(if faults.is_empty() { "no driver is installed".into() } else { faults })
         });
     };
-    let by_index = wanted.parse().ok().and_then(|index: usize| devices.get(index));
     let lowercase = wanted.to_lowercase();
-    let by_name = || devices.iter().find(|device| device.name.to_lowercase().contains(&lowercase));
-    let device = by_index.or_else(by_name).ok_or_else(|| {
+    let named = |device: &&DeviceInfo| !wanted.is_empty() && device.name.to_lowercase().contains(&lowercase);
+    let device = match wanted.parse::<usize>() {
+        Ok(index) => devices.get(index),
+        // Of devices of one name, a usable one.
+        Err(_) => devices.iter().filter(named).min_by_key(|device| device.unusable.is_some()),
+    };
+    let device = device.ok_or_else(|| {
         let names = devices.iter().map(|device| format!("{} {}", device.index, device.name));
         Error::UnknownDevice { wanted: wanted.to_owned(), available: names.collect::<Vec<_>>().join(", ") }
     })?;
     match &device.unusable {
-        Some(fault) => Err(Error::NoDevice(format!("{}: {fault}", device.name))),
+        Some(fault) => Err(Error::UnusableDevice(format!("{}: {fault}", device.name))),
         None => Ok(device),
     }
 }

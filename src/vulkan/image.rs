@@ -31,22 +31,22 @@ impl Image {
     /// Four f32 a pixel.
     ///
     /// # Errors
-    /// [`crate::error::Error::DeviceMemory`], or what Vulkan says.
-    pub fn rgba32f(device: &Arc<Device>, name: &str, extent: [u32; 2]) -> Result<Self> {
+    /// [`crate::error::Error::Memory`], or what Vulkan says.
+    pub fn rgba32f(device: &Arc<Device>, name: &'static str, extent: [u32; 2]) -> Result<Self> {
         Self::new(device, name, extent, vk::Format::R32G32B32A32_SFLOAT, 16)
     }
 
     /// Four bytes a pixel, without an encoding of their own.
     ///
     /// # Errors
-    /// [`crate::error::Error::DeviceMemory`], or what Vulkan says.
-    pub fn rgba8(device: &Arc<Device>, name: &str, extent: [u32; 2]) -> Result<Self> {
+    /// [`crate::error::Error::Memory`], or what Vulkan says.
+    pub fn rgba8(device: &Arc<Device>, name: &'static str, extent: [u32; 2]) -> Result<Self> {
         Self::new(device, name, extent, vk::Format::R8G8B8A8_UNORM, 4)
     }
 
     fn new(
         device: &Arc<Device>,
-        name: &str,
+        name: &'static str,
         extent: [u32; 2],
         format: vk::Format,
         bytes_per_pixel: u64,

@@ -93,11 +93,6 @@ impl Instance {
     pub fn validation_messages(&self) -> Vec<String> {
         self.messages.list()
     }
-
-    /// Whether the validation layer is on.
-    pub fn validates(&self) -> bool {
-        self.messenger.is_some()
-    }
 }
 
 impl Drop for Instance {

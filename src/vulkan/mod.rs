@@ -2,7 +2,8 @@
 //!
 //! Ownership goes from child to parent by `Arc` (`Instance <- Device <- Buffer, Image, ...`), so a
 //! handle is never destroyed after what it came from. Every call into the driver goes through
-//! [`check`], which says what was tried.
+//! [`check`], which says what was tried. What a recording uses is held by whoever records, until
+//! the commands are done; the renderer and the window do so by waiting before they replace it.
 #![allow(unsafe_code, reason = "this module wraps the driver's C interface")]
 
 mod buffer;
@@ -32,5 +33,10 @@ use ash::vk;
 
 /// Names what failed.
 fn check<T>(what: &'static str, result: Result<T, vk::Result>) -> Result<T> {
-    result.map_err(|result| Error::Vulkan { what, result })
+    result.map_err(|result| match result {
+        vk::Result::ERROR_OUT_OF_DEVICE_MEMORY | vk::Result::ERROR_OUT_OF_HOST_MEMORY => {
+            Error::Memory { what }
+        }
+        result => Error::Vulkan { what, result },
+    })
 }

@@ -6,13 +6,16 @@ use super::{Device, Image, Instance, Recording, check};
 use crate::error::{Error, Result};
 use ash::{khr, vk};
 use std::sync::Arc;
-use winit::raw_window_handle::{RawDisplayHandle, RawWindowHandle};
+use std::time::Duration;
+use winit::raw_window_handle::{HandleError, HasDisplayHandle, HasWindowHandle};
+use winit::window::Window;
 
 /// A window, as Vulkan sees it.
 pub struct Surface {
     raw: vk::SurfaceKHR,
     loader: khr::surface::Instance,
     _instance: Arc<Instance>,
+    _window: Arc<Window>,
 }
 
 /// The images that the window shows, and the semaphores around them.
@@ -28,20 +31,25 @@ pub struct Swapchain {
     next_acquire: usize,
     extent: [u32; 2],
     format: vk::Format,
-    surface: Arc<Surface>,
     device: Arc<Device>,
+    _surface: Arc<Surface>,
 }
 
 /// How many frames the host may be ahead of the device.
 pub const FRAMES_IN_FLIGHT: usize = 2;
 
-/// What asking for the next image gave. A stale swapchain is an outcome, not an error.
+/// What asking for the next image gave. Neither a stale swapchain nor a hidden window is an error.
 pub enum Acquired {
     /// An image to draw to.
     Image(AcquiredImage),
     /// The window has changed: make another swapchain.
     Stale,
+    /// None is free yet, as when the window is hidden: try again later.
+    NotReady,
 }
+
+/// How long to wait for an image: the window must stay able to answer.
+const ACQUIRE_TIMEOUT: Duration = Duration::from_millis(200);
 
 /// An image of the swapchain, to be presented.
 pub struct AcquiredImage {
@@ -50,22 +58,21 @@ pub struct AcquiredImage {
 }
 
 impl Surface {
-    /// The surface of a window, which must outlive it.
+    /// The surface of a window, which it keeps.
     ///
     /// # Errors
-    /// What Vulkan says.
-    pub fn new(
-        instance: &Arc<Instance>,
-        display: RawDisplayHandle,
-        window: RawWindowHandle,
-    ) -> Result<Arc<Self>> {
-        // SAFETY: the handles are those of a live window, which the caller drops after the surface.
+    /// What Vulkan or the window says.
+    pub fn new(instance: &Arc<Instance>, window: &Arc<Window>) -> Result<Arc<Self>> {
+        let handles = || Ok((window.display_handle()?.as_raw(), window.window_handle()?.as_raw()));
+        let (display, handle) = handles().map_err(|error: HandleError| Error::Window(error.to_string()))?;
+        // SAFETY: the handles are those of a live window, which the surface keeps alive.
         let raw =
-            unsafe { ash_window::create_surface(&instance.entry, &instance.raw, display, window, None) };
+            unsafe { ash_window::create_surface(&instance.entry, &instance.raw, display, handle, None) };
         Ok(Arc::new(Self {
             raw: check("creating the window's surface", raw)?,
             loader: khr::surface::Instance::new(&instance.entry, &instance.raw),
             _instance: Arc::clone(instance),
+            _window: Arc::clone(window),
         }))
     }
 
@@ -138,8 +145,8 @@ impl Swapchain {
             next_acquire: 0,
             extent,
             format: format.format,
-            surface: Arc::clone(surface),
             device: Arc::clone(device),
+            _surface: Arc::clone(surface),
         };
         swapchain.create_parts()?;
         Ok(Some(swapchain))
@@ -185,10 +192,11 @@ impl Swapchain {
     /// What Vulkan says.
     pub fn acquire(&mut self) -> Result<Acquired> {
         let acquired = self.acquired[self.next_acquire];
+        let timeout = u64::try_from(ACQUIRE_TIMEOUT.as_nanos()).unwrap_or(u64::MAX);
         // SAFETY: the semaphore's last wait is over: the caller waits for a frame's fence before
         // it begins the frame, and there are as many semaphores as frames.
         let result =
-            unsafe { self.loader.acquire_next_image(self.raw, u64::MAX, acquired, vk::Fence::null()) };
+            unsafe { self.loader.acquire_next_image(self.raw, timeout, acquired, vk::Fence::null()) };
         match result {
             // A suboptimal image can still be shown; presenting it says so again.
             Ok((index, _suboptimal)) => {
@@ -196,22 +204,23 @@ impl Swapchain {
                 Ok(Acquired::Image(AcquiredImage { index, acquired }))
             }
             Err(vk::Result::ERROR_OUT_OF_DATE_KHR) => Ok(Acquired::Stale),
+            Err(vk::Result::TIMEOUT | vk::Result::NOT_READY) => Ok(Acquired::NotReady),
             Err(result) => check("acquiring an image of the window", Err(result)),
         }
     }
 
-    /// Copies `picture` to the acquired image and opens it for drawing on top, with its top left
-    /// pixels where the sizes differ.
+    /// Copies `picture` to the acquired image and opens it for drawing on top. The
+    /// sizes are the same.
     pub fn begin_drawing(&self, recording: &mut Recording<'_>, image: &AcquiredImage, picture: &Image) {
         let raw = self.images[image.index as usize];
         let buffer = recording.raw();
-        // The acquire semaphore is waited for at these stages, which the first barrier chains to.
         let transfer = (vk::PipelineStageFlags2::ALL_TRANSFER, vk::AccessFlags2::TRANSFER_WRITE);
         let attachment = (
             vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
             vk::AccessFlags2::COLOR_ATTACHMENT_READ | vk::AccessFlags2::COLOR_ATTACHMENT_WRITE,
         );
-        let undefined = (vk::PipelineStageFlags2::ALL_TRANSFER, vk::AccessFlags2::NONE);
+        // `present` waits for the acquired image at this stage, so that tracing need not.
+        let undefined = (vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT, vk::AccessFlags2::NONE);
         let (dst, color) = (vk::ImageLayout::TRANSFER_DST_OPTIMAL, vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL);
         transition(recording, raw, vk::ImageLayout::UNDEFINED, undefined, dst, transfer);
         let size = [0, 1].map(|axis| self.extent[axis].min(picture.extent()[axis]));
@@ -266,7 +275,7 @@ impl Swapchain {
         let rendered = self.rendered[image.index as usize];
         let wait = [vk::SemaphoreSubmitInfo::default()
             .semaphore(image.acquired)
-            .stage_mask(vk::PipelineStageFlags2::ALL_TRANSFER)];
+            .stage_mask(vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT)];
         let signal = [vk::SemaphoreSubmitInfo::default()
             .semaphore(rendered)
             .stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)];
@@ -300,7 +309,6 @@ impl Drop for Swapchain {
             }
             self.loader.destroy_swapchain(self.raw, None);
         }
-        let _ = &self.surface;
     }
 }
 
