@@ -15,8 +15,8 @@ pub(super) struct Panel {
     pub(super) settings: Settings,
     /// What Reset goes back to.
     initial: Settings,
-    /// What the renderer took last.
-    accepted: Settings,
+    /// What the renderer took last, and the name of its scene.
+    accepted: (Settings, String),
     max_points: u32,
     /// As named: a built-in or a file.
     scene: String,
@@ -41,7 +41,7 @@ impl Panel {
         }
         Self {
             initial: settings.clone(),
-            accepted: settings.clone(),
+            accepted: (settings.clone(), scene.clone()),
             max_points: settings.samples.max(MAX_POINTS),
             settings,
             scene,
@@ -83,8 +83,8 @@ impl Panel {
 
     /// The renderer took the settings.
     pub(super) fn accept(&mut self) {
-        if self.accepted != self.settings {
-            self.accepted = self.settings.clone();
+        if self.accepted.0 != self.settings {
+            self.accepted = (self.settings.clone(), self.scene.clone());
         }
     }
 
@@ -92,9 +92,8 @@ impl Panel {
     pub(super) fn refuse(&mut self, error: &Error) {
         self.message = Some(error.to_string());
         let size = self.settings.estimator.size;
-        self.settings = self.accepted.clone();
+        (self.settings, self.scene) = self.accepted.clone();
         self.settings.estimator.size = size;
-        self.scene.clone_from(&self.settings.estimator.scene.name);
     }
 
     fn scene_chooser(&mut self, ui: &Ui) {

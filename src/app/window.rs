@@ -76,10 +76,10 @@ impl Viewer {
 
 impl ApplicationHandler for Viewer {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
-        if self.open.is_none() {
-            if let Err(error) = self.open(event_loop) {
-                self.fail(event_loop, error);
-            }
+        if self.open.is_none()
+            && let Err(error) = self.open(event_loop)
+        {
+            self.fail(event_loop, error);
         }
     }
 
