@@ -9,6 +9,10 @@ use std::path::PathBuf;
 /// Samples per pixel that the viewer goes for, unless another number is asked for.
 const DEFAULT_VIEW_SAMPLES: u32 = 256;
 
+/// Pictures that a device is verified with: the oracle has to render them too.
+const PROOF_SIZE: [u32; 2] = [128, 96];
+const PROOF_SAMPLES: u32 = 16;
+
 /// The command line.
 #[derive(Debug, Parser)]
 #[command(
@@ -34,6 +38,8 @@ pub enum Command {
     View(ViewArgs),
     /// Render a picture to a file, without a window
     Render(RenderArgs),
+    /// Prove a device: hold what it renders against the same mathematics in f64, sample by sample
+    Verify(VerifyArgs),
     /// List the built-in scenes
     Scenes,
     /// List the Vulkan devices that --device can name
@@ -69,6 +75,20 @@ pub struct RenderArgs {
     /// Say nothing but warnings and errors
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+/// `thinlens verify`.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Without a SCENE, all built-in scenes. 128x96 pixels and 16 samples, unless told otherwise."
+)]
+pub struct VerifyArgs {
+    /// What to render.
+    #[command(flatten)]
+    pub settings: SettingsArgs,
+    /// On which device, and whether it is watched.
+    #[command(flatten)]
+    pub device: DeviceArgs,
 }
 
 /// Where to render.
@@ -138,13 +158,33 @@ impl SettingsArgs {
         Ok((self.resolve(DEFAULT_VIEW_SAMPLES)?, self.size))
     }
 
+    /// The settings of small pictures to verify a device with: of the scene that was named, or of
+    /// each that is built in.
+    ///
+    /// # Errors
+    /// Of the scene, or [`crate::error::Error::OutOfRange`].
+    pub fn of_proof(&self) -> Result<Vec<Settings>> {
+        let named = self.scene.as_deref().map(|name| vec![name]);
+        let names = named.unwrap_or_else(|| BUILTINS.iter().map(|builtin| builtin.name).collect());
+        let proof = |name: &str| {
+            let mut settings = self.resolve_scene(name, PROOF_SAMPLES)?;
+            settings.estimator.size = self.size.unwrap_or(PROOF_SIZE);
+            Ok(settings)
+        };
+        names.into_iter().map(proof).collect()
+    }
+
     /// The scene, as it was named.
     pub fn scene(&self) -> &str {
         self.scene.as_deref().unwrap_or(BUILTINS[0].name)
     }
 
     fn resolve(&self, samples: u32) -> Result<Settings> {
-        let mut settings = Settings::of_scene(SceneRef::new(scene::load(self.scene())?));
+        self.resolve_scene(self.scene(), samples)
+    }
+
+    fn resolve_scene(&self, name: &str, samples: u32) -> Result<Settings> {
+        let mut settings = Settings::of_scene(SceneRef::new(scene::load(name)?));
         let estimator = &mut settings.estimator;
         estimator.size = self.size.unwrap_or(estimator.size);
         estimator.lens.diameter = self.lens_diameter.unwrap_or(estimator.lens.diameter);

@@ -101,6 +101,21 @@ pub enum Error {
     /// The validation layer spoke.
     #[error("the validation layer gave {0} message(s), printed above; please report them as a bug")]
     Validation(usize),
+    /// The device and the oracle do not agree.
+    #[error(
+        "{scene}: the device does not render what it should: {:.3}% of the samples differ and the picture is \
+         {:+.3}% brighter; update its driver, or choose another device (thinlens devices)",
+        100.0 * mismatches,
+        100.0 * brightness
+    )]
+    Disagreement {
+        /// The scene's name.
+        scene: String,
+        /// Share of samples that differ.
+        mismatches: f64,
+        /// How much brighter the device's picture is, as a share.
+        brightness: f64,
+    },
     /// Standard output cannot be written.
     #[error("cannot write to standard output: {0}; the picture, if one was asked for, is written")]
     Output(std::io::Error),

@@ -14,6 +14,8 @@
 //! - [`passes`] are the three compute passes, each with the shader of its name in `shaders/`.
 //! - [`renderer`] owns film and passes and decides what is traced next.
 //! - [`output`] writes files, [`app`] is the window, [`cli`] the command line.
+//! - [`reference`](mod@reference) is the renderer again, in f64 on the CPU: the oracle that [`verify`] and the
+//!   tests hold the device against. It shares no code with the device's side.
 //! - [`vulkan`] wraps the driver and is the only unsafe code.
 //!
 //! The optics are those of K. Suffern, *Ray Tracing from the Ground Up*, chapter 10: a centre ray
@@ -26,7 +28,9 @@ pub mod error;
 pub mod gpu_types;
 pub mod output;
 pub mod passes;
+pub mod reference;
 pub mod renderer;
 pub mod scene;
 pub mod settings;
+pub mod verify;
 pub mod vulkan;

@@ -4,18 +4,16 @@ use clap::Parser;
 use std::process::ExitCode;
 use thinlens::cli::{Cli, Command, RenderArgs, ViewArgs};
 use thinlens::error::{Error, Result};
-use thinlens::{app, output};
+use thinlens::{app, output, verify};
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
     env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("warn")).init();
-    match run(cli.command.unwrap_or_else(|| Command::View(ViewArgs::default()))) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("thinlens: {error}");
-            ExitCode::from(error.exit_code())
-        }
+    if let Err(error) = run(cli.command.unwrap_or_else(|| Command::View(ViewArgs::default()))) {
+        eprintln!("thinlens: {error}");
+        return ExitCode::from(error.exit_code());
     }
+    ExitCode::SUCCESS
 }
 
 fn run(command: Command) -> Result<()> {
@@ -24,6 +22,9 @@ fn run(command: Command) -> Result<()> {
         Command::Render(RenderArgs { settings, output, stats, device, quiet }) => {
             let settings = settings.of_file()?;
             output::render(&output::Job { settings, output, stats, device: device.choice(), quiet })
+        }
+        Command::Verify(args) => {
+            output::say(&verify::run(&args.settings.of_proof()?, &args.device.choice())?)
         }
         Command::Devices => output::list_devices(),
         Command::Scenes => output::list_scenes(),

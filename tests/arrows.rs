@@ -3,13 +3,15 @@
 use std::path::Path;
 
 /// A module and what it may use of the crate, besides `error`.
-const ARROWS: [(&str, &[&str]); 10] = [
+const ARROWS: [(&str, &[&str]); 12] = [
     ("cli", &["settings", "scene"]),
     ("app", &["renderer", "output", "settings", "scene", "vulkan"]),
     ("output", &["renderer", "settings", "scene", "vulkan"]),
     ("renderer", &["passes", "gpu_types", "settings", "scene", "vulkan"]),
     ("passes", &["vulkan", "gpu_types"]),
     ("gpu_types", &["scene", "settings"]),
+    ("verify", &["renderer", "reference", "settings", "vulkan"]),
+    ("reference", &["scene", "settings"]),
     ("settings", &["scene"]),
     ("scene", &[]),
     ("vulkan", &[]),

@@ -260,3 +260,23 @@ fn an_answer_that_cannot_be_printed_is_no_panic() {
     }
     assert!(folder.path().join("out.png").exists());
 }
+
+/// Catches a proof that says nothing, or proves one scene where all were asked for.
+#[test]
+fn verify_proves_the_device() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let all = run(folder.path(), &["verify", "--size", "32x24", "--samples", "4", "--validation"]);
+    assert_eq!((all.code, all.stderr.as_str()), (0, ""), "{}", all.stdout);
+    for scene in ["version-4", "suffern-boxes", "suffern-mirror"] {
+        assert!(
+            all.stdout.lines().any(|line| line.starts_with(scene) && line.contains("3072 samples")),
+            "{}",
+            all.stdout
+        );
+    }
+    let one = run(
+        folder.path(),
+        &["verify", "suffern-boxes", "--size", "32x24", "--samples", "4", "--jitter", "3"],
+    );
+    assert_eq!((one.code, one.stdout.lines().count()), (0, 2), "{}{}", one.stdout, one.stderr);
+}

@@ -15,6 +15,9 @@ use crate::error::{Error, Result};
 use std::io::Write;
 
 /// Prints a line of the program's answer. A closed pipe or a full disk is an error, not a panic.
-fn say(line: &str) -> Result<()> {
+///
+/// # Errors
+/// [`Error::Output`].
+pub fn say(line: &str) -> Result<()> {
     writeln!(std::io::stdout(), "{line}").map_err(Error::Output)
 }

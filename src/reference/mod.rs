@@ -1,0 +1,78 @@
+//! The oracle: the renderer again, in f64, on the CPU, one sample at a time, written from the
+//! mathematics. It shares the scene and the settings with the GPU's renderer and nothing else: no
+//! shader struct, no device, no derived constant, so that it cannot inherit a mistake of theirs.
+//!
+//! Same: the sample values, bit for bit. Different: f64 instead of f32, textbook formulas instead of
+//! rearranged ones, and so a different answer next to edges, where rounding decides what a ray hits.
+
+mod camera;
+pub mod film;
+mod intersect;
+pub mod sampler;
+mod shading;
+pub mod tone;
+
+use crate::settings::Estimator;
+use camera::Projection;
+use glam::DVec3;
+
+/// A half-line from a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ray {
+    /// Where it starts.
+    pub origin: DVec3,
+    /// Unit length.
+    pub direction: DVec3,
+}
+
+/// One sample of a picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// The primary ray.
+    pub ray: Ray,
+    /// Where the film position lies from the start pixel's centre, in pixels, x right and y down.
+    pub offset: [f64; 2],
+    /// Radiance along the primary ray.
+    pub radiance: DVec3,
+}
+
+/// The oracle for one estimator.
+pub struct Reference<'a> {
+    estimator: &'a Estimator,
+    projection: Projection,
+}
+
+impl<'a> Reference<'a> {
+    /// For a picture of these settings.
+    pub fn new(estimator: &'a Estimator) -> Self {
+        Self { estimator, projection: Projection::new(estimator) }
+    }
+
+    /// The sample of this start pixel and sample index.
+    pub fn sample(&self, pixel: [u32; 2], index: u32) -> Sample {
+        let xi = sampler::sample_values(self.estimator.seed, pixel, index, 0);
+        let jitter = f64::from(self.estimator.jitter);
+        let offset = [(xi[0] - 0.5) * jitter, (xi[1] - 0.5) * jitter];
+        let lens = sampler::concentric_disk([xi[2], xi[3]]);
+        let ray = self.projection.primary_ray(pixel, offset, lens);
+        let scene = &*self.estimator.scene;
+        let radiance = shading::radiance(scene, ray, self.estimator.max_bounces);
+        Sample { ray, offset, radiance }
+    }
+
+    /// The film after samples `0 .. count` of every pixel: mean r, g, b and count, row by row from
+    /// the top left.
+    pub fn render(&self, count: u32) -> Vec<[f64; 4]> {
+        let [width, height] = self.estimator.size;
+        let mut film = film::Film::new(self.estimator.size);
+        for index in 0..count {
+            for y in 0..height {
+                for x in 0..width {
+                    let sample = self.sample([x, y], index);
+                    film.add([x, y], sample.offset, sample.radiance);
+                }
+            }
+        }
+        film.into_texels()
+    }
+}

@@ -1,0 +1,86 @@
+//! Radiance along a ray: K. Suffern, chapters 14 to 16 and 24.
+
+use super::Ray;
+use super::intersect::intersect;
+use crate::scene::{LightKind, Material, Scene};
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// How far a secondary ray must go before it hits, as a share of the coordinates at hand: the
+/// rounding error of f64 with room to spare.
+const LEAST_DISTANCE: f64 = 1e-9;
+
+/// What arrives along `ray`, with at most `bounces` reflections.
+pub(super) fn radiance(scene: &Scene, ray: Ray, bounces: u32) -> DVec3 {
+    radiance_beyond(scene, ray, 0.0, bounces)
+}
+
+fn radiance_beyond(scene: &Scene, ray: Ray, least: f64, bounces: u32) -> DVec3 {
+    let Some(hit) = intersect(scene, ray, least) else {
+        return background(scene, ray.direction);
+    };
+    let material = &scene.materials[hit.material as usize];
+    let position = ray.origin + hit.distance * ray.direction;
+    let least = LEAST_DISTANCE * position.abs().max_element().max(hit.distance);
+    let mut sum = emitted_and_reflected(scene, material, position, hit.normal, -ray.direction, least);
+    if bounces > 0 && material.reflectance != glam::Vec3::ZERO {
+        let direction = ray.direction - 2.0 * ray.direction.dot(hit.normal) * hit.normal;
+        let mirrored = Ray { origin: position, direction };
+        sum += material.reflectance.as_dvec3() * radiance_beyond(scene, mirrored, least, bounces - 1);
+    }
+    sum
+}
+
+fn background(scene: &Scene, direction: DVec3) -> DVec3 {
+    let height = direction.y.clamp(0.0, 1.0);
+    let (horizon, zenith) = (scene.background.horizon.as_dvec3(), scene.background.zenith.as_dvec3());
+    horizon.lerp(zenith, height * (2.0 - height))
+}
+
+fn emitted_and_reflected(
+    scene: &Scene,
+    material: &Material,
+    position: DVec3,
+    normal: DVec3,
+    to_viewer: DVec3,
+    least: f64,
+) -> DVec3 {
+    let color = color(material, position);
+    let mut sum = material.emission.as_dvec3() + f64::from(material.ka) * color * scene.ambient.as_dvec3();
+    for light in &scene.lights {
+        let (to_light, light_distance) = match light.kind {
+            LightKind::Directional(direction) => (direction.as_dvec3().normalize(), f64::INFINITY),
+            LightKind::Point(at) => {
+                let path = at.as_dvec3() - position;
+                (path.normalize(), path.length())
+            }
+        };
+        let cosine = normal.dot(to_light);
+        let shadow_ray = Ray { origin: position, direction: to_light };
+        let in_shadow = || {
+            let blocker = intersect(scene, shadow_ray, least);
+            light.shadows && blocker.is_some_and(|hit| hit.distance < light_distance)
+        };
+        if cosine <= 0.0 || in_shadow() {
+            continue;
+        }
+        let mirrored = 2.0 * cosine * normal - to_light;
+        let highlight = mirrored.dot(to_viewer);
+        let gloss = if material.ks > 0.0 && highlight > 0.0 {
+            f64::from(material.ks) * highlight.powf(f64::from(material.exponent))
+        } else {
+            0.0
+        };
+        let diffuse = f64::from(material.kd) / PI * color;
+        sum += (diffuse + gloss) * light.radiance.as_dvec3() * cosine;
+    }
+    sum
+}
+
+fn color(material: &Material, position: DVec3) -> DVec3 {
+    let odd = material.checker.as_ref().filter(|checker| {
+        let cells = ((position - 1.87e-4) / f64::from(checker.size)).floor();
+        (cells.x + cells.y + cells.z).rem_euclid(2.0) == 1.0
+    });
+    odd.map_or(material.color, |checker| checker.odd_color).as_dvec3()
+}
