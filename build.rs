@@ -1,5 +1,5 @@
 //! Compiles compute shaders to SPIR-V in `OUT_DIR`: those of the program, which
-//! `src/vulkan/pipeline.rs` embeds, and those that only benches embed.
+//! `src/vulkan/pipeline.rs` embeds, and those that benches and tests embed.
 
 use glslang::{
     Compiler, CompilerOptions, Program, Shader, ShaderInput, ShaderSource, ShaderStage, SourceLanguage,
@@ -9,7 +9,7 @@ use glslang::{
 };
 use std::path::{Path, PathBuf};
 
-const FOLDERS: [&str; 2] = ["shaders", "benches"];
+const FOLDERS: [&str; 3] = ["shaders", "benches", "tests"];
 
 /// Finds `#include "name"` in `shaders/include`.
 struct Includes(PathBuf);
