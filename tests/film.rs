@@ -219,3 +219,46 @@ fn samples_that_are_not_finite_are_rejected_and_reported() {
     assert_eq!(averaged as u64 + progress.rejected_samples, progress.traced);
     assert!(progress.rays >= progress.traced, "at least one ray a sample");
 }
+
+/// So many matte spheres in a grid, lit.
+fn spheres(count: usize) -> Settings {
+    let mut toml = String::from(
+        "[camera]\neye = [0, 0, 9]\nlook_at = [0, 0, 0]\nvfov_degrees = 60\nlens_diameter = 0.1\n\
+         focal_distance = 9\n[ambient]\nradiance = 1\n[[directional]]\ndirection = [1, 2, 3]\nradiance = 2\n\
+         [matte.m]\nka = 0.5\nkd = 0.5\ncolor = [1, 0.9, 0.8]\n",
+    );
+    for number in 0..count {
+        let (x, y, z) = (number % 20, number / 20 % 20, number / 400);
+        toml += &format!(
+            "[[sphere]]\ncenter = [{}, {}, -{z}]\nradius = 0.2\nmaterial = \"m\"\n",
+            0.5 * x as f64 - 5.0,
+            0.5 * y as f64 - 5.0
+        );
+    }
+    let mut settings = Settings::of_scene(scene_of(&toml));
+    settings.estimator.size = [24, 18];
+    settings.samples = 20;
+    settings
+}
+
+/// Catches lavapipe's limit of 65,535 loop steps an invocation, beyond which it leaves the loops
+/// silently: samples went missing in scenes of thousands of shapes.
+#[test]
+fn many_shapes_lose_no_samples() {
+    let gpu = Gpu::new();
+    let mut settings = spheres(3000);
+    let film = film(&gpu, &settings);
+    assert!(film.iter().all(|texel| texel[3] == 20.0));
+    settings.samples = 8;
+    let mut renderer = Renderer::new(gpu.device()).expect("a renderer");
+    thinlens::verify::verify(&mut renderer, &settings).unwrap_or_else(|error| panic!("{error}"));
+
+    // More than a software device can do is refused; a GPU has no such limit.
+    let refused = renderer.set(&spheres(33_000));
+    if gpu.device().info().kind == thinlens::vulkan::SOFTWARE {
+        let error = refused.expect_err("too many for software");
+        assert!(error.to_string().contains("fewer shapes"), "{error}");
+    } else {
+        refused.expect("a GPU has no such limit");
+    }
+}

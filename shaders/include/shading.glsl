@@ -24,7 +24,8 @@ vec3 surface_color(Material material, vec3 position) {
 
 vec3 background(vec3 direction) {
     float height = clamp(direction.y, 0.0, 1.0);
-    return mix(environment.horizon, environment.zenith, height * (2.0 - height));
+    // Not mix(): of two equal colours this makes exactly that colour.
+    return environment.horizon + (environment.zenith - environment.horizon) * (height * (2.0 - height));
 }
 
 // Emission, ambient, and direct light with hard shadows, towards -ray.direction.

@@ -13,6 +13,8 @@ pub struct SceneBuffers {
     buffers: [Arc<Buffer>; 8],
     /// Spheres, boxes, triangles, planes, lights.
     counts: [u32; 5],
+    /// Whether any material mirrors.
+    reflects: bool,
 }
 
 impl SceneBuffers {
@@ -40,12 +42,25 @@ impl SceneBuffers {
                 count(scene.planes.len()),
                 count(scene.lights.len()),
             ],
+            reflects: scene.materials.iter().any(|material| material.reflectance != [0.0; 3]),
         })
     }
 
-    /// How many lights it has.
-    pub fn light_count(&self) -> u32 {
-        self.counts[4]
+    /// The most rays that one sample can need: at each surface one onwards and one to each light.
+    pub fn most_rays(&self, max_bounces: u32) -> u32 {
+        self.most_surfaces(max_bounces).saturating_mul(1 + self.counts[4])
+    }
+
+    /// How often the loops of the trace pass can go round for one sample: over shapes for each ray,
+    /// over lights and reflections.
+    pub fn most_loop_steps(&self, max_bounces: u32) -> u64 {
+        let [spheres, boxes, triangles, planes, lights] = self.counts.map(u64::from);
+        let shapes = spheres + boxes + triangles + planes;
+        u64::from(self.most_surfaces(max_bounces)) * (1 + shapes + lights * (1 + shapes))
+    }
+
+    fn most_surfaces(&self, max_bounces: u32) -> u32 {
+        if self.reflects { 1 + max_bounces } else { 1 }
     }
 
     /// Its buffers at the bindings of `shaders/include/scene.glsl`, with the image and the counters

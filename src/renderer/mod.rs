@@ -4,17 +4,18 @@
 //! None of that changes the picture: see [`schedule`].
 
 mod film;
+mod headless;
 pub mod schedule;
 mod tally;
 
 pub use tally::Progress;
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::gpu_types::{AccumulatePush, Camera, Counters, ResolvePush, SceneData, TracePush};
 use crate::passes::{Accumulate, Resolve, SceneBuffers, Trace};
 use crate::scene::SceneRef;
 use crate::settings::{Estimator, Settings, View};
-use crate::vulkan::{BindingSet, Buffer, Commands, Device, Image, Recording, Residence};
+use crate::vulkan::{BindingSet, Buffer, Device, Image, Recording, Residence, SOFTWARE};
 use film::Film;
 use schedule::{Cursor, MAX_BATCH, Pass, reach};
 use std::sync::Arc;
@@ -23,9 +24,6 @@ use tally::{Tally, Work};
 
 /// Small pictures would otherwise record thousands of passes for one submission.
 const MAX_TILES_PER_SUBMISSION: u32 = 64;
-/// How long a headless submission works: far below what desktop drivers kill a dispatch for.
-const HEADLESS_BUDGET: Duration = Duration::from_millis(100);
-
 /// How much to record at once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Pace {
@@ -55,6 +53,8 @@ pub struct Renderer {
     /// How the picture was resolved, unless the film has changed since.
     resolved: Option<View>,
     max_batch: u32,
+    /// What the scene's loops allow.
+    largest_batch: u32,
     device: Arc<Device>,
 }
 
@@ -86,6 +86,7 @@ impl Renderer {
             needs_clear: false,
             resolved: None,
             max_batch: MAX_BATCH,
+            largest_batch: 1,
             device: Arc::clone(device),
         })
     }
@@ -110,6 +111,7 @@ impl Renderer {
         if self.scene.as_ref().is_none_or(|loaded| loaded.scene != estimator.scene) {
             self.load_scene(&estimator.scene)?;
         }
+        self.largest_batch = self.fit_loops(estimator.max_bounces)?;
         if self.film.as_ref().is_none_or(|film| film.film.extent() != estimator.size) {
             self.device.wait_idle()?;
             (self.film, self.trace_bindings) = (None, None);
@@ -132,6 +134,20 @@ impl Renderer {
         }
         self.settings = Some(settings.clone());
         Ok(())
+    }
+
+    /// The batch that the scene's loops allow.
+    fn fit_loops(&self, max_bounces: u32) -> Result<u32> {
+        let steps = self.scene.as_ref().map_or(0, |loaded| loaded.buffers.most_loop_steps(max_bounces));
+        match schedule::largest_batch(steps) {
+            Some(batch) => Ok(batch),
+            None if self.device.info().kind != SOFTWARE => Ok(1),
+            None => Err(Error::OutOfRange(format!(
+                "the scene can take {steps} steps a sample, but software devices stop at {}; use fewer shapes or \
+                 lights, a lower --max-bounces, or a GPU",
+                schedule::MAX_LOOP_STEPS
+            ))),
+        }
     }
 
     fn load_scene(&mut self, scene: &SceneRef) -> Result<()> {
@@ -162,7 +178,7 @@ impl Renderer {
     pub fn record(&mut self, recording: &mut Recording<'_>, frame: usize, pace: Pace) {
         let settings = self.settings.clone().expect("set() comes first");
         let scene = self.scene.as_ref().expect("set() comes first");
-        let most_rays = (1 + settings.estimator.max_bounces).saturating_mul(1 + scene.buffers.light_count());
+        let most_rays = scene.buffers.most_rays(settings.estimator.max_bounces);
         // Rays are counted in 32 bits a submission.
         let budget = self.tally.work_within(pace.budget).min(u64::from(u32::MAX / most_rays));
         let mut left = budget;
@@ -271,7 +287,8 @@ impl Renderer {
             _ if preview && self.samples == 0 => Pass::interleaved(1),
             _ => {
                 // A sample that strays must be found again by its index, so it travels alone.
-                let max_batch = if reach(estimator.jitter) > 0 { 1 } else { self.max_batch };
+                let wide = reach(estimator.jitter) > 0;
+                let max_batch = if wide { 1 } else { self.max_batch.min(self.largest_batch) };
                 Pass::whole(self.samples, settings.samples, max_batch)
             }
         }
@@ -321,64 +338,6 @@ impl Renderer {
     /// The resolved picture, as [`Renderer::record_resolve`] left it.
     pub fn picture(&self) -> Option<&Image> {
         self.film.as_ref().map(|film| &*film.picture)
-    }
-
-    /// Renders until the target is reached. `on_progress` is called after every submission.
-    ///
-    /// # Errors
-    /// What Vulkan says.
-    pub fn render(&mut self, on_progress: impl FnMut(&Progress)) -> Result<()> {
-        let pace = Pace { budget: HEADLESS_BUDGET, preview: false };
-        self.render_at(pace, on_progress)
-    }
-
-    /// Likewise, at another pace.
-    ///
-    /// # Errors
-    /// What Vulkan says.
-    pub fn render_at(&mut self, pace: Pace, mut on_progress: impl FnMut(&Progress)) -> Result<()> {
-        let mut commands = Commands::new(&self.device)?;
-        while !self.finished() {
-            let mut recording = commands.begin()?;
-            self.record(&mut recording, 0, pace);
-            recording.submit()?;
-            commands.wait()?;
-            self.collect(0)?;
-            on_progress(&self.progress());
-        }
-        Ok(())
-    }
-
-    /// The film: mean r, g, b and count of each pixel, row by row from the top left.
-    ///
-    /// # Errors
-    /// [`crate::error::Error::Memory`], or what Vulkan says.
-    pub fn read_film(&mut self) -> Result<Vec<[f32; 4]>> {
-        let bytes = self.read_image(|film| &film.film)?;
-        Ok(bytemuck::allocation::pod_collect_to_vec(&bytes))
-    }
-
-    /// The picture: r, g, b, 255 of each pixel, sRGB, row by row from the top left.
-    ///
-    /// # Errors
-    /// [`crate::error::Error::Memory`], or what Vulkan says.
-    pub fn read_picture(&mut self) -> Result<Vec<u8>> {
-        self.read_image(|film| &film.picture)
-    }
-
-    fn read_image(&mut self, choose: impl Fn(&Film) -> &Image) -> Result<Vec<u8>> {
-        let size = self.film.as_ref().map_or(0, |film| choose(film).byte_len());
-        let buffer = Buffer::new(&self.device, "read-back", size, Residence::Host)?;
-        let mut commands = Commands::new(&self.device)?;
-        let mut recording = commands.begin()?;
-        recording.barrier();
-        self.record_resolve(&mut recording);
-        if let Some(film) = &self.film {
-            recording.copy_image(choose(film), &buffer);
-        }
-        recording.submit()?;
-        commands.wait()?;
-        Ok(buffer.bytes()[..usize::try_from(size).unwrap_or(0)].to_vec())
     }
 }
 

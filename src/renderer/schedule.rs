@@ -8,6 +8,17 @@ use crate::gpu_types::Lattice;
 /// Samples a pixel in one pass, once a picture is under way.
 pub const MAX_BATCH: u32 = 16;
 
+/// Lavapipe silently leaves every loop of an invocation once it has gone round this often, all loops
+/// counted together. A sample that goes round more often would be wrong.
+pub const MAX_LOOP_STEPS: u64 = 65_535;
+
+/// The largest batch, a power of two, that stays within [`MAX_LOOP_STEPS`] if every sample goes round
+/// `steps` times. None if not even one sample does.
+pub fn largest_batch(steps: u64) -> Option<u32> {
+    let most = u32::try_from(MAX_LOOP_STEPS / (steps + 1)).ok()?;
+    most.checked_ilog2().map(|power| 1 << power)
+}
+
 /// The order in which the interleaved first sample fills a cell of 4 x 4 pixels. The first four
 /// phases are every second pixel both ways.
 const PHASES_OF_16: [[u32; 2]; 16] = [
@@ -242,6 +253,16 @@ mod tests {
                 assert_eq!(seen.len(), (size[0] * size[1]) as usize, "{size:?}, {pixels} pixels");
             }
         }
+    }
+
+    /// Catches a batch that lavapipe would cut short.
+    #[test]
+    fn batches_stay_within_the_loop_limit() {
+        for steps in [1, 2, 413, 4000, 30_000, 65_534] {
+            let batch = u64::from(largest_batch(steps).expect("one sample fits"));
+            assert!(batch * (steps + 1) <= MAX_LOOP_STEPS && 2 * batch * (steps + 1) > MAX_LOOP_STEPS);
+        }
+        assert_eq!(largest_batch(65_535), None);
     }
 
     /// Catches a reach that is one short: samples would vanish between pixels.

@@ -13,6 +13,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 /// Vulkan 1.3 has more.
 const MOST_STORAGE_BUFFERS: u32 = 9;
 
+/// The kind of a device that runs on the CPU.
+pub const SOFTWARE: &str = "software";
+
 /// A device of the system, usable or not.
 #[derive(Debug, Clone)]
 pub struct DeviceInfo {
@@ -76,7 +79,7 @@ impl Instance {
             vk::PhysicalDeviceType::DISCRETE_GPU => ("discrete GPU", 0),
             vk::PhysicalDeviceType::INTEGRATED_GPU => ("integrated GPU", 1),
             vk::PhysicalDeviceType::VIRTUAL_GPU => ("virtual GPU", 2),
-            vk::PhysicalDeviceType::CPU => ("software", 3),
+            vk::PhysicalDeviceType::CPU => (SOFTWARE, 3),
             _ => ("other", 4),
         };
         let mut info = DeviceInfo {

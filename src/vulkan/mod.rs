@@ -19,7 +19,7 @@ mod validation;
 
 pub use buffer::{Buffer, Residence};
 pub use command::{Commands, Recording};
-pub use device::{Device, DeviceInfo};
+pub use device::{Device, DeviceInfo, SOFTWARE};
 pub use image::Image;
 pub use instance::Instance;
 pub(crate) use pipeline::shader;

@@ -1,0 +1,70 @@
+//! Rendering without a window, and reading the images back.
+
+use super::film::Film;
+use super::{Pace, Progress, Renderer};
+use crate::error::Result;
+use crate::vulkan::{Buffer, Commands, Image, Residence};
+use std::time::Duration;
+
+/// How long a headless submission works: far below what desktop drivers kill a dispatch for.
+const HEADLESS_BUDGET: Duration = Duration::from_millis(100);
+
+impl Renderer {
+    /// Renders until the target is reached. `on_progress` is called after every submission.
+    ///
+    /// # Errors
+    /// What Vulkan says.
+    pub fn render(&mut self, on_progress: impl FnMut(&Progress)) -> Result<()> {
+        let pace = Pace { budget: HEADLESS_BUDGET, preview: false };
+        self.render_at(pace, on_progress)
+    }
+
+    /// Likewise, at another pace.
+    ///
+    /// # Errors
+    /// What Vulkan says.
+    pub fn render_at(&mut self, pace: Pace, mut on_progress: impl FnMut(&Progress)) -> Result<()> {
+        let mut commands = Commands::new(&self.device)?;
+        while !self.finished() {
+            let mut recording = commands.begin()?;
+            self.record(&mut recording, 0, pace);
+            recording.submit()?;
+            commands.wait()?;
+            self.collect(0)?;
+            on_progress(&self.progress());
+        }
+        Ok(())
+    }
+
+    /// The film: mean r, g, b and count of each pixel, row by row from the top left.
+    ///
+    /// # Errors
+    /// [`crate::error::Error::Memory`], or what Vulkan says.
+    pub fn read_film(&mut self) -> Result<Vec<[f32; 4]>> {
+        let bytes = self.read_image(|film| &film.film)?;
+        Ok(bytemuck::allocation::pod_collect_to_vec(&bytes))
+    }
+
+    /// The picture: r, g, b, 255 of each pixel, sRGB, row by row from the top left.
+    ///
+    /// # Errors
+    /// [`crate::error::Error::Memory`], or what Vulkan says.
+    pub fn read_picture(&mut self) -> Result<Vec<u8>> {
+        self.read_image(|film| &film.picture)
+    }
+
+    fn read_image(&mut self, choose: impl Fn(&Film) -> &Image) -> Result<Vec<u8>> {
+        let size = self.film.as_ref().map_or(0, |film| choose(film).byte_len());
+        let buffer = Buffer::new(&self.device, "read-back", size, Residence::Host)?;
+        let mut commands = Commands::new(&self.device)?;
+        let mut recording = commands.begin()?;
+        recording.barrier();
+        self.record_resolve(&mut recording);
+        if let Some(film) = &self.film {
+            recording.copy_image(choose(film), &buffer);
+        }
+        recording.submit()?;
+        commands.wait()?;
+        Ok(buffer.bytes()[..usize::try_from(size).unwrap_or(0)].to_vec())
+    }
+}
