@@ -108,7 +108,7 @@ pub struct SettingsArgs {
     /// A built-in scene (see thinlens scenes) or a .toml file [default: version-4]
     scene: Option<String>,
     /// Antialiasing points per pixel: more for less noise [default: 64, in the viewer 256]
-    #[arg(short = 'n', long, value_name = "N")]
+    #[arg(short = 'n', long, value_name = "N", allow_negative_numbers = true)]
     samples: Option<u32>,
     /// Picture size in pixels [default: the scene's, in the viewer the window's]
     #[arg(short, long, value_name = "WxH", value_parser = parse_size)]
@@ -120,16 +120,17 @@ pub struct SettingsArgs {
     #[arg(long, value_name = "L", allow_negative_numbers = true)]
     focal_distance: Option<f32>,
     /// Width of the square that a pixel's samples fall in: 1 is its own area, 0 one centre ray per
-    /// pixel, more reaches into the neighbours [default: 1]
+    /// pixel, more, up to 15, reaches into the neighbours [default: 1]
     #[arg(long, value_name = "PX", allow_negative_numbers = true)]
     jitter: Option<f32>,
-    /// How many mirror reflections to follow [default: the scene's]
-    #[arg(long, value_name = "N")]
+    /// How many mirror reflections to follow, up to 64 [default: the scene's]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     max_bounces: Option<u32>,
     /// Chooses other random points [default: 0]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     seed: Option<u32>,
-    /// Brightness in stops: +1 doubles it, -1 halves it [default: 0]
+    /// Brightness of a PNG or the window in stops: +1 doubles it, -1 halves it; an EXR stays as it is
+    /// [default: 0]
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true)]
     exposure: Option<f32>,
 }

@@ -131,6 +131,10 @@ fn wrong_use_exits_with_2_and_says_what_is_right() {
         (&["render", "-o", "out.png", "--max-bounces", "65"], "from 0 to 64"),
         (&["render", "-o", "out.png", "--device", "no such device"], "there are: 0 "),
         (&["render", "-o", "out.png", "--device", "99"], "there are: 0 "),
+        // A digit of a device's name or driver is not its index.
+        (&["render", "-o", "out.png", "--device", "5"], "there are: 0 "),
+        (&["render", "-o", "out.png", "--stats", "out.png"], "the same file"),
+        (&["render", "-o", "out.png", "--seed", "-1"], "--seed"),
         (&["render", "-o", "out.png", "--device", ""], "there are: 0 "),
         (&["render", "-o", "out.png", "--samples", "16777216", "--jitter", "2"], "from 1 to 16711680"),
         (&["view", "--samples", "0"], "from 1 to 16777216"),
@@ -215,7 +219,8 @@ fn with_no_display_the_viewer_renders_to_a_file() {
     assert!(run.stderr.contains("no display"), "{}", run.stderr);
     let path = folder.path().join("thinlens.png");
     assert!(run.stdout.contains(path.to_str().expect("a plain path")), "{}", run.stdout);
-    assert!(run.stdout.contains("thinlens render suffern-boxes"), "{}", run.stdout);
+    let next = format!("{} render suffern-boxes", env!("CARGO_BIN_EXE_thinlens"));
+    assert!(run.stdout.contains(&next), "{}", run.stdout);
     assert_eq!(decode_png(&std::fs::read(path).expect("the picture")).0, [40, 30]);
 }
 

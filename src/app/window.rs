@@ -41,6 +41,8 @@ struct Open {
     last_frame: Instant,
     frames_to_draw: u32,
     shown: (u32, u32),
+    /// Lens diameter, focal distance and jitter that were reported last.
+    state: [f32; 3],
     occluded: bool,
 }
 
@@ -145,6 +147,7 @@ impl Open {
         let mut imgui = imgui::Context::create();
         imgui.set_ini_filename(None);
         imgui.io_mut().config_windows_move_from_title_bar_only = true;
+        imgui.io_mut().config_flags |= imgui::ConfigFlags::NAV_ENABLE_KEYBOARD;
         let mut platform = WinitPlatform::new(&mut imgui);
         platform.attach_window(imgui.io_mut(), &window, HiDpiMode::Default);
         let mut open = Self {
@@ -156,6 +159,7 @@ impl Open {
             last_frame: Instant::now(),
             frames_to_draw: FRAMES_AFTER_EVENT,
             shown: (0, 0),
+            state: [f32::NAN; 3],
             occluded: false,
         };
         open.load_fonts();
@@ -242,6 +246,12 @@ impl Open {
     }
 
     fn report(&mut self) {
+        let estimator = &self.panel.settings.estimator;
+        let state = [estimator.lens.diameter, estimator.lens.focal_distance, estimator.jitter];
+        if state != self.state {
+            log::debug!("lens {} {} jitter {}", state[0], state[1], state[2]);
+            self.state = state;
+        }
         let shown = (self.graphics.progress().samples, self.panel.settings.samples);
         if shown != self.shown {
             let [width, height] = self.panel.settings.estimator.size;

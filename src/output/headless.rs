@@ -31,6 +31,9 @@ pub struct Job {
 pub fn render(job: &Job) -> Result<()> {
     job.settings.check()?;
     let format = PictureFormat::of(&job.output).ok_or_else(|| Error::UnknownFormat(job.output.clone()))?;
+    if job.stats.as_ref() == Some(&job.output) {
+        return Err(Error::OutOfRange("--output and --stats name the same file; give each its own".into()));
+    }
     let instance = Instance::new(job.device.validation, None)?;
     let rendered = render_on(&instance, job, format);
     // The layer speaks until the device is gone. What went wrong first is the better reason.
@@ -50,7 +53,8 @@ pub fn render_instead(settings: Settings, scene: &str, device: DeviceChoice, why
     let output = std::env::current_dir().unwrap_or_default().join("thinlens.png");
     render(&Job { settings, output: output.clone(), stats: None, device, quiet: false })?;
     say(&format!("the picture is {}", output.display()))?;
-    say(&format!("next, try: thinlens render {scene} --lens-diameter 0 -o pinhole.png"))
+    let program = std::env::args().next().unwrap_or_else(|| "thinlens".into());
+    say(&format!("next, try: {program} render {scene} --lens-diameter 0 -o pinhole.png"))
 }
 
 fn render_on(instance: &Arc<Instance>, job: &Job, format: PictureFormat) -> Result<()> {
