@@ -213,9 +213,35 @@ vertices = [[-0.2, 0, 1], [0.5, 0, 1.2], [0.1, 0.9, 0.7]]
 material = "glass"
 "#;
 
+/// A room seen from inside, and a ball beyond its lamp that must not shadow anything.
+const ROOM: &str = r#"
+[camera]
+eye = [0.2, 0.1, 1.8]
+look_at = [0, 0, 0]
+vfov_degrees = 80
+lens_diameter = 0.1
+focal_distance = 2
+[[point]]
+position = [0.3, 0.6, 0.4]
+radiance = 3
+[matte.wall]
+ka = 0
+kd = 0.8
+color = { even = [0.9, 0.8, 0.7], odd = [0.3, 0.4, 0.5], size = 0.37 }
+[[box]]
+lower = [-1.5, -1, -2]
+upper = [1.5, 1.2, 2]
+material = "wall"
+[[sphere]]
+center = [0.5, 0.95, 0.6]
+radius = 0.15
+material = "wall"
+"#;
+
 fn scenes() -> Vec<Settings> {
     let mut all: Vec<Settings> = ["version-4", "suffern-boxes", "suffern-mirror"].map(small).into();
     all.push(with(EVERYTHING, [64, 48]));
+    all.push(with(ROOM, [64, 48]));
     for settings in &mut all {
         settings.samples = 8;
     }
