@@ -132,8 +132,6 @@ pub fn run(pictures: &[Settings], choice: &DeviceChoice) -> Result<String> {
         ));
     }
     drop((renderer, device));
-    match instance.validation_messages().len() {
-        0 => Ok(lines.join("\n")),
-        count => Err(Error::Validation(count)),
-    }
+    instance.check_validation()?;
+    Ok(lines.join("\n"))
 }

@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::renderer::Progress;
 use crate::scene::{self, BUILTINS, MAX_LENGTH, MIN_LENGTH, SceneRef};
-use crate::settings::{DEFAULT_JITTER, MAX_EXPOSURE_STOPS, Settings};
+use crate::settings::{DEFAULT_JITTER, Settings};
 use imgui::{Condition, SliderFlags, Ui};
 
 /// The points slider goes this far, or as far as was asked for.
@@ -201,7 +201,6 @@ impl Panel {
                     .build(stops);
             },
         );
-        *stops = stops.clamp(-MAX_EXPOSURE_STOPS, MAX_EXPOSURE_STOPS);
     }
 
     fn status(&self, ui: &Ui, status: &Status<'_>) {

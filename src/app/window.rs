@@ -55,11 +55,7 @@ impl Viewer {
     pub(super) fn finish(self) -> Result<()> {
         drop(self.open);
         self.error.map_or(Ok(()), Err)?;
-        // The layer speaks until the device is gone.
-        match self.instance.map_or(0, |instance| instance.validation_messages().len()) {
-            0 => Ok(()),
-            count => Err(Error::Validation(count)),
-        }
+        self.instance.map_or(Ok(()), |instance| instance.check_validation())
     }
 
     fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<()> {

@@ -35,13 +35,9 @@ pub fn render(job: &Job) -> Result<()> {
         return Err(Error::OutOfRange("--output and --stats name the same file; give each its own".into()));
     }
     let instance = Instance::new(job.device.validation, None)?;
-    let rendered = render_on(&instance, job, format);
-    // The layer speaks until the device is gone. What went wrong first is the better reason.
-    rendered?;
-    match instance.validation_messages().len() {
-        0 => Ok(()),
-        count => Err(Error::Validation(count)),
-    }
+    // What went wrong first is the better reason.
+    render_on(&instance, job, format)?;
+    instance.check_validation()
 }
 
 /// With no display: renders the scene to `thinlens.png` instead, and says so.

@@ -3,7 +3,7 @@
 use super::film::Film;
 use super::{Pace, Progress, Renderer};
 use crate::error::Result;
-use crate::vulkan::{Buffer, Commands, Image, Residence};
+use crate::vulkan::{Buffer, Commands, Image, Recording, Residence};
 use std::time::Duration;
 
 /// How long a headless submission works: far below what desktop drivers kill a dispatch for.
@@ -41,7 +41,7 @@ impl Renderer {
     /// # Errors
     /// [`crate::error::Error::Memory`], or what Vulkan says.
     pub fn read_film(&mut self) -> Result<Vec<[f32; 4]>> {
-        let bytes = self.read_image(|film| &film.film)?;
+        let bytes = self.read_image(|film| &film.film, Self::record_clear)?;
         Ok(bytemuck::allocation::pod_collect_to_vec(&bytes))
     }
 
@@ -50,16 +50,21 @@ impl Renderer {
     /// # Errors
     /// [`crate::error::Error::Memory`], or what Vulkan says.
     pub fn read_picture(&mut self) -> Result<Vec<u8>> {
-        self.read_image(|film| &film.picture)
+        self.read_image(|film| &film.picture, Self::record_resolve)
     }
 
-    fn read_image(&mut self, choose: impl Fn(&Film) -> &Image) -> Result<Vec<u8>> {
+    /// Reads an image back, once `prepare` is recorded.
+    fn read_image(
+        &mut self,
+        choose: impl Fn(&Film) -> &Image,
+        prepare: impl FnOnce(&mut Self, &mut Recording<'_>),
+    ) -> Result<Vec<u8>> {
         let size = self.film.as_ref().map_or(0, |film| choose(film).byte_len());
         let buffer = Buffer::new(&self.device, "read-back", size, Residence::Host)?;
         let mut commands = Commands::new(&self.device)?;
         let mut recording = commands.begin()?;
         recording.barrier();
-        self.record_resolve(&mut recording);
+        prepare(self, &mut recording);
         if let Some(film) = &self.film {
             recording.copy_image(choose(film), &buffer);
         }

@@ -195,7 +195,7 @@ impl Renderer {
             let cursor =
                 self.cursor.unwrap_or_else(|| Cursor::start(self.next_pass(&settings, left, pace.preview)));
             // The first lattice of a preview is traced whole: without it there is nothing to show.
-            let whole = pace.preview && self.samples == 0 && cursor.is_first_lattice();
+            let whole = pace.preview && self.nothing_to_show();
             let Some(work) = self.record_tile(recording, &settings.estimator, cursor, left, whole) else {
                 break;
             };
@@ -203,7 +203,7 @@ impl Renderer {
             done.cost += work.cost;
             left = left.saturating_sub(work.cost);
             // The first tile is recorded whatever it costs; for a small rest no other one is.
-            if left <= budget / 8 && !(pace.preview && self.samples == 0 && self.nothing_to_show()) {
+            if left <= budget / 8 && !(pace.preview && self.nothing_to_show()) {
                 break;
             }
         }
@@ -211,7 +211,7 @@ impl Renderer {
     }
 
     fn nothing_to_show(&self) -> bool {
-        self.cursor.is_none_or(Cursor::is_first_lattice)
+        self.samples == 0 && self.cursor.is_none_or(Cursor::is_first_lattice)
     }
 
     fn record_clear(&mut self, recording: &mut Recording<'_>) {

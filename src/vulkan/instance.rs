@@ -93,6 +93,17 @@ impl Instance {
     pub fn validation_messages(&self) -> Vec<String> {
         self.messages.list()
     }
+
+    /// Whether the layer kept silent. It speaks until the device is gone, so that is when to ask.
+    ///
+    /// # Errors
+    /// [`Error::Validation`].
+    pub fn check_validation(&self) -> Result<()> {
+        match self.validation_messages().len() {
+            0 => Ok(()),
+            count => Err(Error::Validation(count)),
+        }
+    }
 }
 
 impl Drop for Instance {
