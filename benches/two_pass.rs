@@ -12,8 +12,8 @@ use thinlens::renderer::schedule::Pass;
 use thinlens::scene::{self, SceneRef};
 use thinlens::settings::Settings;
 use thinlens::vulkan::{
-    BindingSet, Buffer, Commands, ComputePipeline, Device, Image, Instance, Recording, Residence, Shader,
-    Timer,
+    Binding, BindingSet, Buffer, Commands, ComputePipeline, Device, Image, Instance, Recording, Residence,
+    Shader, Timer,
 };
 
 const SIZE: [u32; 2] = [640, 480];
@@ -48,10 +48,12 @@ fn measure(device: &Arc<Device>, name: &str) -> Result<()> {
     let counters =
         Arc::new(Buffer::new(device, "counters", size_of::<Counters>() as u64, Residence::Device)?);
     let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene))?;
-    let (trace, accumulate) = (Trace::new(device, &scene)?, Accumulate::new(device)?);
+    let (trace, accumulate) =
+        (Trace::new(device, Trace::SHADER, &scene)?, Accumulate::new(device, Accumulate::SHADER)?);
     let (traced, accumulated) = (trace.bind(&scene, &batch, &counters)?, accumulate.bind(&batch, &film)?);
     let fused = ComputePipeline::new(device, FUSED, scene.constants())?;
-    let fused_bindings = BindingSet::new(&fused, &scene.bindings(&film, &counters))?;
+    let front = [Binding::Image(Arc::clone(&film)), Binding::Buffer(Arc::clone(&counters))];
+    let fused_bindings = BindingSet::new(&fused, &scene.bindings(front))?;
 
     let mut commands = Commands::new(device)?;
     let mut recording = commands.begin()?;

@@ -1,43 +1,49 @@
-//! Where points appear, and how wide they blur.
+//! Pictures of points and edges: where they appear, and how wide they blur.
 
 mod common;
 
-use common::{Gpu, film, scene_of, small};
+use anyhow::{Result, ensure};
+use common::{Gpu, film, prove, scene_of};
+use glam::Vec3;
+use thinlens::scene::{self, Background, Material, Scene, SceneRef};
 use thinlens::settings::Settings;
 
-/// A small emitter at `center` in front of black, seen from the origin along -z.
-fn emitter(center: [f64; 3], radius: f64, diameter: f32, focal_distance: f32, samples: u32) -> Settings {
-    let [x, y, z] = center;
-    let scene = scene_of(&format!(
-        r#"
-        [camera]
-        eye = [0, 0, 0]
-        look_at = [0, 0, -1]
-        vfov_degrees = 40
-        lens_diameter = 0
-        focal_distance = 1
-        [emissive.lamp]
-        radiance = 1
-        [[sphere]]
-        center = [{x}, {y}, {z}]
-        radius = {radius}
-        material = "lamp"
-        "#
-    ));
-    let mut settings = small("version-4");
-    settings.estimator.camera = scene.camera;
-    settings.estimator.lens.diameter = diameter;
-    settings.estimator.lens.focal_distance = focal_distance;
-    settings.estimator.size = [160, 120];
-    settings.estimator.scene = scene;
-    settings.samples = samples;
+const SIZE: [u32; 2] = [160, 120];
+
+/// A camera at the origin that looks along -z, 40 degrees high, and something that glows.
+fn glowing(shape: &str, diameter: f32, focal_distance: f32, samples: u32) -> Settings {
+    let mut settings = Settings::of_scene(scene_of(&format!(
+        "[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, -1]\nvfov_degrees = 40\nlens_diameter = {diameter}\n\
+         focal_distance = {focal_distance}\n[emissive.lamp]\nradiance = 1\n{shape}material = \"lamp\"\n"
+    )));
+    (settings.estimator.size, settings.samples) = (SIZE, samples);
     settings
+}
+
+fn ball([x, y, z]: [f64; 3], radius: f64) -> String {
+    format!("[[sphere]]\ncenter = [{x}, {y}, {z}]\nradius = {radius}\n")
+}
+
+/// Pixels per unit of slope.
+fn k() -> f64 {
+    f64::from(SIZE[1]) / 2.0 / 20_f64.to_radians().tan()
+}
+
+/// Where a point appears on the film.
+fn project(point: [f64; 3]) -> [f64; 2] {
+    [80.0 + k() * point[0] / -point[2], 60.0 - k() * point[1] / -point[2]]
+}
+
+/// The diameter in pixels of the picture of a point at depth `z`: by similar triangles, the cone from
+/// the lens through the point is D |z - F| / z wide in the focal plane, of which a pixel is F / k.
+fn circle_of_confusion(diameter: f64, focal_distance: f64, z: f64, k: f64) -> f64 {
+    diameter * (z - focal_distance).abs() / (z * focal_distance) * k
 }
 
 /// Sum, centroid, and across x and y the diameter of a disc of the same second moment.
 fn spot(film: &[[f32; 4]]) -> (f64, [f64; 2], [f64; 2]) {
     let pixels =
-        || (0..120_u32).flat_map(|y| (0..160_u32).map(move |x| [f64::from(x) + 0.5, f64::from(y) + 0.5]));
+        || (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| [f64::from(x) + 0.5, f64::from(y) + 0.5]));
     let light = |index: usize| f64::from(film[index][0]);
     let sum: f64 = (0..film.len()).map(light).sum();
     let mean =
@@ -48,71 +54,212 @@ fn spot(film: &[[f32; 4]]) -> (f64, [f64; 2], [f64; 2]) {
     (sum, centroid, diameter)
 }
 
-/// Pixels per unit of slope, and the film position of a point.
-fn project(settings: &Settings, point: [f64; 3]) -> [f64; 2] {
-    let k = settings.estimator.camera.view_distance_pixels(120);
-    [80.0 + k * point[0] / -point[2], 60.0 - k * point[1] / -point[2]]
-}
-
-/// Catches pictures that are upside down, mirrored, off by half a pixel, or scaled: a point off
-/// both axes must appear where it projects to, in focus or not.
+/// Catches pictures that are upside down, mirrored, off by half a pixel, or scaled: a point off both
+/// axes must appear where it projects to, in focus or not.
 #[test]
 fn a_point_appears_where_it_projects_to() {
-    let gpu = Gpu::new();
-    for point in [[2.0, 1.0, -10.0], [-2.5, -1.8, -10.0], [3.0, -2.0, -10.0], [0.0, 0.0, -10.0]] {
-        for focal_distance in [10.0, 7.0, 20.0] {
-            let settings = emitter(point, 0.3, 0.5, focal_distance, 64);
-            let (sum, centroid, _) = spot(&film(&gpu, &settings));
-            let expected = project(&settings, point);
-            assert!(sum > 0.0, "{point:?} is in the picture");
-            for axis in 0..2 {
-                let error = (centroid[axis] - expected[axis]).abs();
-                assert!(error < 0.1, "{point:?} at {centroid:?}, not {expected:?}");
+    let check = |gpu: &Gpu| -> Result<String> {
+        let (mut count, mut worst) = (0, 0.0_f64);
+        for point in [[2.0, 1.0, -10.0], [-2.5, -1.8, -10.0], [3.0, -2.0, -10.0], [0.0, 0.0, -10.0]] {
+            for focal_distance in [10.0, 7.0, 20.0] {
+                let settings = glowing(&ball(point, 0.3), 0.5, focal_distance, 64);
+                let (sum, centroid, _) = spot(&film(gpu, &settings));
+                let expected = project(point);
+                ensure!(sum > 0.0, "{point:?} is not in the picture");
+                for axis in 0..2 {
+                    let error = (centroid[axis] - expected[axis]).abs();
+                    worst = worst.max(error);
+                    ensure!(error < 0.1, "{point:?} appears at {centroid:.2?}, not {expected:.2?}");
+                }
+                count += 1;
             }
         }
-    }
+        Ok(format!("{count} points within {worst:.3} px"))
+    };
+    prove(
+        check,
+        &["picture_upside_down", "picture_mirrored", "half_a_pixel_off", "field_of_view_by_the_width"],
+    );
 }
 
-/// Catches a lens of the wrong radius (D for D / 2, or its square root) and a wrong focal distance:
-/// a point off the focal plane spreads over `D |z - F| / (z F) k` pixels. Off the axis too, which
-/// a focal sphere fails. Where the blur is about a pixel's width, one random pair for film and lens
-/// fails too: then the two spreads do not add as independent ones do.
+/// Catches a lens of the wrong radius (D for D / 2, or its square root), a wrong focal distance, and
+/// off the axis a focal sphere: a small lamp spreads over its circle of confusion. Where that is
+/// about a pixel, one random pair for film and lens is seen too: then the two spreads do not add as
+/// independent ones do.
 #[test]
-fn a_point_out_of_focus_spreads_over_the_circle_of_confusion() {
-    let gpu = Gpu::new();
-    for (point, diameter, focal_distance) in [
-        ([0.0, 0.0, -10.0], 0.5, 5.0),
-        ([0.3, 0.2, -10.0], 0.2, 5.25),
-        ([0.3, 0.2, -10.0], 0.2, 100.0),
-        ([0.0, 0.0, -10.0], 1.0, 25.0),
-        ([2.2, 1.4, -10.0], 0.8, 6.0),
-        ([-2.2, -1.4, -10.0], 0.8, 16.0),
-    ] {
-        let radius = 0.05;
-        let settings = emitter(point, radius, diameter, focal_distance, 4096);
-        let (_, _, measured) = spot(&film(&gpu, &settings));
-        let k = settings.estimator.camera.view_distance_pixels(120);
-        let (z, f, d) = (-point[2], f64::from(focal_distance), f64::from(diameter));
-        let blur = d * (z - f).abs() / (z * f) * k;
-        // The emitter's own disc and the pixel's square add their second moments.
-        let own = 2.0 * radius / z * k;
-        let expected = (blur * blur + own * own + 16.0 / 12.0).sqrt();
-        for diameter in measured {
-            let error = (diameter / expected - 1.0).abs();
-            assert!(error < 0.02, "{point:?}, D {d}, F {f}: {measured:.2?} px, not {expected:.2}");
+fn a_lamp_out_of_focus_spreads_over_its_circle_of_confusion() {
+    let check = |gpu: &Gpu| -> Result<String> {
+        let (mut count, mut worst) = (0, 0.0_f64);
+        for (point, diameter, focal_distance) in [
+            ([0.0, 0.0, -10.0], 0.5, 5.0),
+            ([0.3, 0.2, -10.0], 0.2, 5.25),
+            ([0.3, 0.2, -10.0], 0.2, 100.0),
+            ([0.0, 0.0, -10.0], 1.0, 25.0),
+            ([2.2, 1.4, -10.0], 0.8, 6.0),
+            ([-2.2, -1.4, -10.0], 0.8, 16.0),
+            ([3.0, 2.0, -10.0], 1.0, 11.5),
+        ] {
+            let radius = 0.05;
+            let settings = glowing(&ball(point, radius), diameter, focal_distance, 4096);
+            let (_, _, measured) = spot(&film(gpu, &settings));
+            let z = -point[2];
+            let blur = circle_of_confusion(diameter.into(), focal_distance.into(), z, k());
+            // The lamp's own disc and the pixel's square add their second moments.
+            let own = 2.0 * radius / z * k();
+            let expected = (blur * blur + own * own + 16.0 / 12.0).sqrt();
+            for got in measured {
+                let error = (got / expected - 1.0).abs();
+                worst = worst.max(error);
+                ensure!(
+                    error < 0.02,
+                    "{point:?}, D {diameter}, F {focal_distance}: {measured:.2?} px, not {expected:.2}"
+                );
+                count += 1;
+            }
         }
-    }
+        Ok(format!("{count} diameters within {:.2}%", 100.0 * worst))
+    };
+    prove(
+        check,
+        &[
+            "lens_radius_times_1.05",
+            "lens_radius_square_root",
+            "focal_sphere",
+            "focal_distance_times_1.02",
+            "one_pair_for_film_and_lens",
+            "disk_radius_squared",
+        ],
+    );
 }
 
-/// Catches a lens that adds or loses light: blur spreads a flat emitter's light, no more.
+/// A blurred edge: where it lies along a line of pixels, and over how many it spreads, from what the
+/// pixels of the line show on average over several lines.
+///
+/// The difference of neighbours is the light at their border, blurred by two pixels' widths, which
+/// add 2 / 12 to its variance. A disc of diameter c, looked at from the side, has a variance of
+/// c^2 / 16.
+fn edge(profile: &[f64]) -> (f64, f64) {
+    let rise = profile[profile.len() - 1] - profile[0];
+    let at = |f: &dyn Fn(f64) -> f64| {
+        let steps = profile.windows(2).enumerate();
+        steps.map(|(i, pair)| (pair[1] - pair[0]) / rise * f(i as f64 + 1.0)).sum::<f64>()
+    };
+    let position = at(&|x| x);
+    let variance = at(&|x| (x - position).powi(2));
+    (position, 4.0 * (variance - 1.0 / 6.0).max(0.0).sqrt())
+}
+
+/// What the pixels of columns `columns` show on average over `rows`.
+fn profile(film: &[[f32; 4]], width: u32, columns: (u32, u32), rows: (u32, u32)) -> Vec<f64> {
+    let pixel = |x: u32, y: u32| f64::from(film[(y * width + x) as usize][0]);
+    let column = |x| (rows.0..rows.1).map(|y| pixel(x, y)).sum::<f64>() / f64::from(rows.1 - rows.0);
+    (columns.0..columns.1).map(column).collect()
+}
+
+/// Catches what the lamp catches, on a step edge in front of and behind the focal plane: upright and
+/// lying, through the axis and in the corner.
 #[test]
-fn blur_keeps_the_light() {
-    let gpu = Gpu::new();
-    let sums = [0.0, 0.4, 1.0].map(|diameter| {
-        let settings = emitter([0.5, -0.4, -10.0], 0.4, diameter, 6.0, 256);
-        spot(&film(&gpu, &settings)).0
-    });
-    for sum in sums {
-        assert!((sum / sums[0] - 1.0).abs() < 0.02, "{sums:?}");
+fn an_edge_out_of_focus_spreads_over_its_circle_of_confusion() {
+    let check = |gpu: &Gpu| -> Result<String> {
+        let (mut count, mut worst, mut worst_place) = (0, 0.0_f64, 0.0_f64);
+        for (diameter, focal_distance) in [(0.5, 5.0), (0.3, 7.0), (1.0, 16.0), (0.5, 100.0)] {
+            // The slope of the line of sight to the edge, and the lines of pixels across it.
+            for (slope, lines) in [(0.0, (40, 80)), (0.35, (2, 38)), (-0.35, (82, 118))] {
+                for lying in [false, true] {
+                    let slope = if lying { 0.6 * slope } else { slope };
+                    let (from, to) = (10.0 * slope, 99.0);
+                    let shape = match lying {
+                        false => format!("lower = [{from}, -99, -10.001]\nupper = [{to}, 99, -10]\n"),
+                        true => format!("lower = [-99, {from}, -10.001]\nupper = [99, {to}, -10]\n"),
+                    };
+                    let settings = glowing(&format!("[[box]]\n{shape}"), diameter, focal_distance, 1024);
+                    let mut film = film(gpu, &settings);
+                    let [width, height] = SIZE;
+                    let extent = if lying {
+                        let at = |x: u32, y: u32| film[((height - 1 - x) * width + y) as usize];
+                        film = (0..width)
+                            .flat_map(|y| (0..height).map(move |x| (x, y)))
+                            .map(|(x, y)| at(x, y))
+                            .collect();
+                        height
+                    } else {
+                        width
+                    };
+                    let (position, measured) = edge(&profile(&film, extent, (0, extent), lines));
+                    let place = (position - f64::from(extent) / 2.0 - k() * slope).abs();
+                    let expected = circle_of_confusion(diameter.into(), focal_distance.into(), 10.0, k());
+                    let error = (measured / expected - 1.0).abs();
+                    (worst, worst_place) = (worst.max(error), worst_place.max(place));
+                    ensure!(
+                        error < 0.02 && place < 0.05,
+                        "D {diameter}, F {focal_distance}, an edge at slope {slope}: {measured:.2} px wide, not \
+                         {expected:.2}, and {place:.2} px beside its place"
+                    );
+                    count += 1;
+                }
+            }
+        }
+        Ok(format!("{count} edges within {:.2}%, placed within {worst_place:.3} px", 100.0 * worst))
+    };
+    prove(
+        check,
+        &[
+            "lens_radius_times_1.05",
+            "lens_radius_square_root",
+            "focal_sphere",
+            "focal_distance_times_1.02",
+            "disk_by_polar_angle",
+            "half_a_pixel_off",
+        ],
+    );
+}
+
+/// The built-in boxes, of which one glows and nothing else does.
+fn only_box(number: usize) -> Scene {
+    let mut scene = scene::load("suffern-boxes").expect("a built-in scene");
+    scene.lights.clear();
+    scene.ambient = Vec3::ZERO;
+    scene.background = Background { horizon: Vec3::ZERO, zenith: Vec3::ZERO };
+    let lamp = scene.boxes[number].material as usize;
+    for (index, material) in scene.materials.iter_mut().enumerate() {
+        let emission = if index == lamp { Vec3::ONE } else { Vec3::ZERO };
+        *material = Material { emission, ..Material::default() };
     }
+    scene
+}
+
+/// Catches a built-in scene that is not the book's, and everything that the edges above catch: the
+/// upright edges of Suffern's boxes blur over the pixels that figure 10.11's lens and distances give.
+#[test]
+fn the_boxes_of_the_book_blur_as_the_book_says() {
+    let check = |gpu: &Gpu| -> Result<String> {
+        let mut figures = Vec::new();
+        // Box, columns that see the edge and nothing else, rows that see only the box, the slope of
+        // the silhouette, its depth, and the circle of confusion.
+        for (number, columns, rows, slope, depth, expected) in [
+            (0, (36, 76), (70, 230), -9.0 / 50.0, 50.0, 10.38),
+            (0, (133, 165), (70, 230), -3.0 / 51.0, 51.0, 9.75),
+            (2, (330, 365), (90, 185), 18.0 / 98.0, 98.0, 5.30),
+            (2, (256, 280), (90, 185), 8.0 / 99.0, 99.0, 5.46),
+        ] {
+            let mut settings = Settings::of_scene(SceneRef::new(only_box(number)));
+            settings.samples = 256;
+            let width = settings.estimator.size[0];
+            let k = settings.estimator.camera.view_distance_pixels(settings.estimator.size[1]);
+            let formula = circle_of_confusion(2.0, 74.0, depth, k);
+            ensure!((formula - expected).abs() < 0.005, "the scene is another: {formula} px, not {expected}");
+            let (position, measured) = edge(&profile(&film(gpu, &settings), width, columns, rows));
+            let position = f64::from(columns.0) + position;
+            let place = (position - 200.0 - 800.0 * slope).abs();
+            ensure!(
+                (measured / expected - 1.0).abs() < 0.02 && place < 0.05,
+                "box {}, edge at column {position:.2}: {measured:.3} px wide, not {expected}; {place:.2} px beside \
+                 its place",
+                number + 1
+            );
+            figures.push(format!("{measured:.2} ({expected})"));
+        }
+        Ok(format!("px measured (of the formula): {}", figures.join(", ")))
+    };
+    prove(check, &["lens_radius_times_1.05", "lens_radius_square_root", "focal_distance_times_1.02"]);
 }

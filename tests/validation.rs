@@ -32,8 +32,10 @@ fn record_two_passes(gpu: &Gpu, barrier: bool) {
     let size = size_of::<Counters>() as u64;
     let counters = Arc::new(Buffer::new(device, "counters", size, Residence::Device).expect("a buffer"));
     let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene)).expect("a scene");
-    let (trace, accumulate) =
-        (Trace::new(device, &scene).expect("trace"), Accumulate::new(device).expect("accumulate"));
+    let (trace, accumulate) = (
+        Trace::new(device, Trace::SHADER, &scene).expect("trace"),
+        Accumulate::new(device, Accumulate::SHADER).expect("accumulate"),
+    );
     let traced = trace.bind(&scene, &batch, &counters).expect("bindings");
     let accumulated = accumulate.bind(&batch, &film).expect("bindings");
 

@@ -8,9 +8,9 @@
 
 const float MISS = 1e30;
 
-// A surface point's normal is normalize(curvature * position + normal): a sphere stores its
-// centre negated with curvature 1, flat shapes their normal with curvature 0. So the shape loops
-// keep what they have at hand, and nothing is fetched again by a diverging index.
+// A sphere stores its centre negated with curvature 1, flat shapes their normal with curvature 0
+// (see surface_normal). So the shape loops keep what they have at hand, and nothing is fetched again
+// by a diverging index.
 struct Hit {
     float distance;
     uint shape;
@@ -97,6 +97,11 @@ Hit intersect_scene(Ray ray) {
         keep_nearer(hit, intersect_plane(ray, planes[i]), shape, planes[i].normal, 0.0);
     }
     return hit;
+}
+
+// The unit normal of the surface at a hit, on either side.
+vec3 surface_normal(Hit hit, vec3 position) {
+    return normalize(hit.curvature * position + hit.normal);
 }
 
 // Whether anything lies on the ray nearer than limit.

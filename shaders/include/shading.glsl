@@ -76,7 +76,7 @@ vec3 radiance(Ray ray, uint max_bounces, inout uint rays) {
             break;
         }
         vec3 position = ray.origin + hit.distance * ray.direction;
-        vec3 normal = normalize(hit.curvature * position + hit.normal);
+        vec3 normal = surface_normal(hit, position);
         normal = dot(normal, ray.direction) > 0.0 ? -normal : normal;
         vec3 magnitude = abs(position);
         float offset = SURFACE_OFFSET * max(hit.distance, max(magnitude.x, max(magnitude.y, magnitude.z)));

@@ -8,3 +8,22 @@ mod trace;
 pub use accumulate::Accumulate;
 pub use resolve::Resolve;
 pub use trace::{SceneBuffers, Trace};
+
+use crate::vulkan::Shader;
+
+/// The shaders of the passes. Tests put others in their place, to see a mistake found.
+#[derive(Debug, Clone, Copy)]
+pub struct Shaders {
+    /// Pass 1.
+    pub trace: Shader,
+    /// Pass 2.
+    pub accumulate: Shader,
+    /// Pass 3.
+    pub resolve: Shader,
+}
+
+impl Default for Shaders {
+    fn default() -> Self {
+        Self { trace: Trace::SHADER, accumulate: Accumulate::SHADER, resolve: Resolve::SHADER }
+    }
+}

@@ -12,12 +12,12 @@ impl Resolve {
     /// The shader.
     pub const SHADER: Shader = shader!("resolve");
 
-    /// Compiles the pass.
+    /// Compiles the pass from its shader, or one with the same interface.
     ///
     /// # Errors
     /// What Vulkan says.
-    pub fn new(device: &Arc<Device>) -> Result<Self> {
-        Ok(Self(ComputePipeline::new(device, Self::SHADER, &[])?))
+    pub fn new(device: &Arc<Device>, shader: Shader) -> Result<Self> {
+        Ok(Self(ComputePipeline::new(device, shader, &[])?))
     }
 
     /// From `film` into `picture`.

@@ -63,11 +63,10 @@ impl SceneBuffers {
         if self.reflects { 1 + max_bounces } else { 1 }
     }
 
-    /// Its buffers at the bindings of `shaders/include/scene.glsl`, with the image and the counters
-    /// in front: every binding of a shader that traces.
-    pub fn bindings(&self, image: &Arc<Image>, counters: &Arc<Buffer>) -> Vec<(u32, Binding)> {
+    /// Every binding of a shader that uses `shaders/include/scene.glsl`: the two resources that it
+    /// works on, and the scene's buffers.
+    pub fn bindings(&self, front: [Binding; 2]) -> Vec<(u32, Binding)> {
         let scene = self.buffers.iter().map(|buffer| Binding::Buffer(Arc::clone(buffer)));
-        let front = [Binding::Image(Arc::clone(image)), Binding::Buffer(Arc::clone(counters))];
         (0..).zip(front.into_iter().chain(scene)).collect()
     }
 
@@ -81,12 +80,13 @@ impl Trace {
     /// The shader.
     pub const SHADER: Shader = shader!("trace");
 
-    /// Compiles the pass for a scene's numbers of things.
+    /// Compiles the pass from its shader, or one with the same interface, for a scene's numbers of
+    /// things.
     ///
     /// # Errors
     /// What Vulkan says.
-    pub fn new(device: &Arc<Device>, scene: &SceneBuffers) -> Result<Self> {
-        Ok(Self(ComputePipeline::new(device, Self::SHADER, scene.constants())?))
+    pub fn new(device: &Arc<Device>, shader: Shader, scene: &SceneBuffers) -> Result<Self> {
+        Ok(Self(ComputePipeline::new(device, shader, scene.constants())?))
     }
 
     /// From `scene` into the tracing image `batch`, counting into `counters`.
@@ -99,7 +99,8 @@ impl Trace {
         batch: &Arc<Image>,
         counters: &Arc<Buffer>,
     ) -> Result<BindingSet> {
-        BindingSet::new(&self.0, &scene.bindings(batch, counters))
+        let front = [Binding::Image(Arc::clone(batch)), Binding::Buffer(Arc::clone(counters))];
+        BindingSet::new(&self.0, &scene.bindings(front))
     }
 
     /// Width and height of a workgroup: tiles are cut at multiples of it.

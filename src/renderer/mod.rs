@@ -12,10 +12,10 @@ pub use tally::Progress;
 
 use crate::error::{Error, Result};
 use crate::gpu_types::{AccumulatePush, Camera, Counters, ResolvePush, SceneData, TracePush};
-use crate::passes::{Accumulate, Resolve, SceneBuffers, Trace};
+use crate::passes::{Accumulate, Resolve, SceneBuffers, Shaders, Trace};
 use crate::scene::SceneRef;
 use crate::settings::{Estimator, Settings, View};
-use crate::vulkan::{BindingSet, Buffer, Device, Image, Recording, Residence, SOFTWARE};
+use crate::vulkan::{BindingSet, Buffer, Device, Image, Recording, Residence, SOFTWARE, Shader};
 use film::Film;
 use schedule::{Cursor, MAX_BATCH, Pass, reach};
 use std::sync::Arc;
@@ -39,6 +39,7 @@ pub struct Renderer {
     scene: Option<LoadedScene>,
     film: Option<Film>,
     trace_bindings: Option<BindingSet>,
+    trace_shader: Shader,
     accumulate: Accumulate,
     resolve: Resolve,
     counters: Arc<Buffer>,
@@ -70,13 +71,22 @@ impl Renderer {
     /// # Errors
     /// What Vulkan says.
     pub fn new(device: &Arc<Device>) -> Result<Self> {
+        Self::with_shaders(device, Shaders::default())
+    }
+
+    /// Likewise, with these shaders for its passes.
+    ///
+    /// # Errors
+    /// What Vulkan says.
+    pub fn with_shaders(device: &Arc<Device>, shaders: Shaders) -> Result<Self> {
         let size = size_of::<Counters>() as u64;
         Ok(Self {
             scene: None,
             film: None,
             trace_bindings: None,
-            accumulate: Accumulate::new(device)?,
-            resolve: Resolve::new(device)?,
+            trace_shader: shaders.trace,
+            accumulate: Accumulate::new(device, shaders.accumulate)?,
+            resolve: Resolve::new(device, shaders.resolve)?,
             counters: Arc::new(Buffer::new(device, "counters", size, Residence::Device)?),
             tally: Tally::new(device)?,
             settings: None,
@@ -154,7 +164,7 @@ impl Renderer {
         self.device.wait_idle()?;
         (self.scene, self.trace_bindings) = (None, None);
         let buffers = SceneBuffers::new(&self.device, &SceneData::new(scene))?;
-        let trace = Trace::new(&self.device, &buffers)?;
+        let trace = Trace::new(&self.device, self.trace_shader, &buffers)?;
         self.tally.forget_rate();
         self.scene = Some(LoadedScene { scene: scene.clone(), buffers, trace });
         Ok(())

@@ -137,7 +137,10 @@ impl Recording<'_> {
                 &[],
             );
             pipeline.assert_push_size(push);
-            device.raw.cmd_push_constants(buffer, pipeline.layout, vk::ShaderStageFlags::COMPUTE, 0, push);
+            if !push.is_empty() {
+                let stage = vk::ShaderStageFlags::COMPUTE;
+                device.raw.cmd_push_constants(buffer, pipeline.layout, stage, 0, push);
+            }
             device.raw.cmd_dispatch(buffer, groups[0], groups[1], 1);
         }
         self.end_label();

@@ -1,19 +1,29 @@
 //! What the tests share: a device that validation watches, small settings, and the program itself.
 #![allow(dead_code, reason = "each test file uses a part")]
 
+pub mod probe;
+pub mod statistics;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::Arc;
+use thinlens::passes::Shaders;
 use thinlens::renderer::Renderer;
 use thinlens::scene::{self, SceneRef};
 use thinlens::settings::Settings;
-use thinlens::vulkan::{Device, Instance};
+use thinlens::vulkan::{Device, Instance, Shader};
 
-/// A device under validation. A test that leaves a message behind fails.
+/// Every shader, as it is and with each fault of `tests/faults.txt` that lies in its source: its
+/// name, the fault's, the SPIR-V.
+const SHADERS: &[(&str, &str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/test_shaders.rs"));
+
+/// A device under validation, and shaders for it. A test that leaves a message behind fails.
 pub struct Gpu {
     device: Option<Arc<Device>>,
     instance: Arc<Instance>,
     expected: Vec<&'static str>,
+    /// The fault that its shaders have.
+    fault: &'static str,
 }
 
 impl Gpu {
@@ -21,11 +31,27 @@ impl Gpu {
     pub fn new() -> Self {
         let instance = Instance::new(true, None).expect("a Vulkan loader and the validation layer");
         let device = Device::open(&instance, None, None).expect("a Vulkan 1.3 device");
-        Self { device: Some(device), instance, expected: Vec::new() }
+        Self { device: Some(device), instance, expected: Vec::new(), fault: "" }
     }
 
     pub fn device(&self) -> &Arc<Device> {
         self.device.as_ref().expect("it is there until the end")
+    }
+
+    /// A shader of the program or of `tests/probes`.
+    pub fn shader(&self, name: &'static str) -> Shader {
+        let of = |fault: &str| SHADERS.iter().find(|shader| (shader.0, shader.1) == (name, fault));
+        let (_, _, spirv) = of(self.fault).or_else(|| of("")).expect("a shader that there is");
+        Shader { name, spirv }
+    }
+
+    pub fn renderer(&self) -> Renderer {
+        let shaders = Shaders {
+            trace: self.shader("trace"),
+            accumulate: self.shader("accumulate"),
+            resolve: self.shader("resolve"),
+        };
+        Renderer::with_shaders(self.device(), shaders).expect("a renderer")
     }
 
     /// The next check wants a message that contains this, and no other.
@@ -58,6 +84,24 @@ impl Drop for Gpu {
     }
 }
 
+/// Holds a check against itself: it must pass with the shaders as they are, and fail with each of
+/// these faults planted in them. A check gives its figures, or what is wrong.
+pub fn prove(check: impl Fn(&Gpu) -> anyhow::Result<String>, faults: &[&'static str]) {
+    let mut gpu = Gpu::new();
+    match check(&gpu) {
+        Ok(figures) => println!("holds: {figures}"),
+        Err(error) => panic!("{error}"),
+    }
+    for fault in faults {
+        assert!(SHADERS.iter().any(|shader| shader.1 == *fault), "no shader has the fault {fault}");
+        gpu.fault = fault;
+        match check(&gpu) {
+            Ok(figures) => panic!("does not see the fault {fault}: {figures}"),
+            Err(error) => println!("fails with {fault}: {error}"),
+        }
+    }
+}
+
 /// A built-in scene, small: 64 x 48 pixels, 8 samples.
 pub fn small(scene: &str) -> Settings {
     let mut settings = Settings::of_scene(SceneRef::new(scene::load(scene).expect("a built-in scene")));
@@ -77,7 +121,7 @@ pub fn scene_of(toml: &str) -> SceneRef {
 
 /// Renders from the start, and gives the film.
 pub fn film(gpu: &Gpu, settings: &Settings) -> Vec<[f32; 4]> {
-    let mut renderer = Renderer::new(gpu.device()).expect("a renderer");
+    let mut renderer = gpu.renderer();
     renderer.set(settings).expect("valid settings");
     renderer.render(|_| ()).expect("a rendering");
     renderer.read_film().expect("a film")

@@ -1,0 +1,64 @@
+//! Runs the shaders' functions one by one, on inputs of a test's choice.
+
+use super::Gpu;
+use bytemuck::{Pod, Zeroable};
+use std::sync::Arc;
+use thinlens::gpu_types::{Camera, SceneData};
+use thinlens::passes::SceneBuffers;
+use thinlens::scene::Scene;
+use thinlens::settings::Estimator;
+use thinlens::vulkan::{Binding, BindingSet, Buffer, Commands, ComputePipeline, Residence};
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct CameraPush {
+    pub camera: Camera,
+    pub extent: [u32; 2],
+}
+
+impl CameraPush {
+    pub fn new(estimator: &Estimator) -> Self {
+        Self { camera: Camera::new(estimator), extent: estimator.size }
+    }
+}
+
+/// What the shader `tests/probes/NAME.comp` makes of each input.
+pub fn probe<In: Pod, Out: Pod>(
+    gpu: &Gpu,
+    name: &'static str,
+    scene: Option<&Scene>,
+    push: &[u8],
+    inputs: &[In],
+) -> Vec<Out> {
+    let shader = gpu.shader(name);
+    for (twin, size) in [("In", size_of::<In>()), ("Out", size_of::<Out>())] {
+        let layout = shader.interface().structs.into_iter().find(|layout| layout.name == twin);
+        assert_eq!(layout.and_then(|layout| layout.stride), Some(size), "{name}: {twin}");
+    }
+    let device = gpu.device();
+    let input = Arc::new(Buffer::upload(device, "probe inputs", inputs).expect("a buffer"));
+    let bytes = size_of::<Out>() * inputs.len();
+    let output = Buffer::new(device, "probe outputs", bytes as u64, Residence::Host).expect("a buffer");
+    let output = Arc::new(output);
+    let front = [Binding::Buffer(input), Binding::Buffer(Arc::clone(&output))];
+    let scene = scene.map(|scene| SceneBuffers::new(device, &SceneData::new(scene)).expect("a scene"));
+    let (bindings, constants) = match &scene {
+        Some(scene) => (scene.bindings(front), scene.constants()),
+        None => ((0..).zip(front).collect(), [].as_slice()),
+    };
+    let pipeline = ComputePipeline::new(device, shader, constants).expect("a pipeline");
+    let bindings = BindingSet::new(&pipeline, &bindings).expect("bindings");
+    let count = u32::try_from(inputs.len()).expect("not too many");
+    run(gpu, &pipeline, &bindings, push, [count, 1]);
+    bytemuck::allocation::pod_collect_to_vec(&output.bytes()[..bytes])
+}
+
+/// One dispatch, until it is done.
+pub fn run(gpu: &Gpu, pipeline: &ComputePipeline, bindings: &BindingSet, push: &[u8], extent: [u32; 2]) {
+    let mut commands = Commands::new(gpu.device()).expect("commands");
+    let mut recording = commands.begin().expect("a recording");
+    recording.dispatch(pipeline, bindings, push, extent);
+    recording.barrier();
+    recording.submit().expect("a submission");
+    commands.wait().expect("the device");
+}

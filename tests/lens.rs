@@ -1,0 +1,233 @@
+//! The lens: where primary rays start, where they meet, and how wide the view is.
+
+mod common;
+
+use anyhow::{Result, ensure};
+use bytemuck::{Pod, Zeroable};
+use common::probe::{CameraPush, probe};
+use common::{Gpu, prove, scene_of};
+use glam::{DVec2, DVec3, Vec3};
+use thinlens::settings::{Estimator, Settings};
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+struct Place {
+    pixel: [u32; 2],
+    offset: [f32; 2],
+    disk: [f32; 2],
+}
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+struct ProbedRay {
+    origin: [f32; 3],
+    pad0: u32,
+    direction: [f32; 3],
+    pad1: u32,
+}
+
+/// The device's primary rays: origin and direction.
+fn primary_rays(gpu: &Gpu, estimator: &Estimator, places: &[Place]) -> Vec<(DVec3, DVec3)> {
+    let push = CameraPush::new(estimator);
+    let rays: Vec<ProbedRay> = probe(gpu, "camera", None, bytemuck::bytes_of(&push), places);
+    rays.iter()
+        .map(|ray| (Vec3::from_array(ray.origin).as_dvec3(), Vec3::from_array(ray.direction).as_dvec3()))
+        .collect()
+}
+
+/// A camera that looks from somewhere to somewhere, tilted, with a wide lens.
+fn slanted(size: [u32; 2], vfov_degrees: f64, diameter: f64, focal_distance: f64) -> Estimator {
+    let mut estimator = Settings::of_scene(scene_of(&format!(
+        "[camera]\neye = [3, 4, 12]\nlook_at = [-2, 1, -9]\nup = [0.2, 1, 0]\n\
+         vfov_degrees = {vfov_degrees}\nlens_diameter = {diameter}\nfocal_distance = {focal_distance}\n"
+    )))
+    .estimator;
+    estimator.size = size;
+    estimator
+}
+
+/// The camera frame of [`slanted`], by the book, not by the program: right, up, backwards.
+fn frame() -> (DVec3, [DVec3; 3]) {
+    let (eye, look_at, up) =
+        (DVec3::new(3.0, 4.0, 12.0), DVec3::new(-2.0, 1.0, -9.0), DVec3::new(f64::from(0.2_f32), 1.0, 0.0));
+    let w = (eye - look_at).normalize();
+    let u = up.cross(w).normalize();
+    (eye, [u, w.cross(u), w])
+}
+
+/// Pixels at corners, edges, centre and between, with offsets to their edges.
+fn film_positions([width, height]: [u32; 2]) -> Vec<([u32; 2], [f32; 2])> {
+    let along = |extent: u32| [0, extent / 5, extent / 2, extent - 1];
+    let offsets = [[0.0, 0.0], [-0.5, -0.5], [0.5, 0.5], [0.5, -0.5], [0.25, -0.125]];
+    let pixels = along(height).into_iter().flat_map(|y| along(width).map(|x| [x, y]));
+    pixels.flat_map(|pixel| offsets.map(|offset| (pixel, offset))).collect()
+}
+
+/// Points of the unit disk: the centre, and rings out to the rim.
+fn lens_points() -> Vec<[f32; 2]> {
+    let ring = |radius: f32| (0..8).map(move |i| (i as f32 * std::f32::consts::FRAC_PI_4, radius));
+    let points = [0.25, 0.5, 0.75, 1.0].into_iter().flat_map(ring);
+    std::iter::once([0.0, 0.0])
+        .chain(points.map(|(angle, radius)| [radius * angle.cos(), radius * angle.sin()]))
+        .collect()
+}
+
+/// Where a point appears on the film, in pixels from its upper left corner: straight through the
+/// lens centre. Written from figure 3.18 and section 10.2 of the book.
+fn project(point: DVec3, [width, height]: [u32; 2], vfov_degrees: f64) -> DVec2 {
+    let (eye, [u, v, w]) = frame();
+    let relative = point - eye;
+    let depth = -w.dot(relative);
+    let k = f64::from(height) / 2.0 / (vfov_degrees.to_radians() / 2.0).tan();
+    DVec2::new(
+        f64::from(width) / 2.0 + k * u.dot(relative) / depth,
+        f64::from(height) / 2.0 - k * v.dot(relative) / depth,
+    )
+}
+
+/// Catches a lens of another radius, a focal sphere instead of a plane, and a picture that is
+/// turned, mirrored or shifted: for film positions out to the corners and lens points out to the
+/// rim, a primary ray starts on the lens where it should and goes through the point of the focal
+/// *plane* that projects to the film position.
+#[test]
+fn primary_rays_go_from_the_lens_to_the_point_in_focus() {
+    let check = |gpu: &Gpu| -> Result<String> {
+        let (eye, [u, v, w]) = frame();
+        let (mut rays, mut worst_focus, mut worst_pixel, mut worst_start) = (0, 0.0_f64, 0.0_f64, 0.0_f64);
+        let mut nearest_sphere = f64::INFINITY;
+        for (size, vfov, diameter, focal_distance) in [
+            ([33, 21], 65.0, 1.4, 17.0),
+            ([20, 30], 40.0, 0.1, 2.5),
+            ([640, 360], 90.0, 2.0, 0.8),
+            ([8, 8], 20.0, 5.0, 900.0),
+        ] {
+            let estimator = slanted(size, vfov, diameter, focal_distance);
+            let focal_distance = f64::from(estimator.lens.focal_distance);
+            let places: Vec<_> = (film_positions(size).into_iter())
+                .flat_map(|(pixel, offset)| {
+                    lens_points().into_iter().map(move |disk| Place { pixel, offset, disk })
+                })
+                .collect();
+            for (place, (origin, direction)) in places.iter().zip(primary_rays(gpu, &estimator, &places)) {
+                ensure!(
+                    (direction.length() - 1.0).abs() < 1e-6,
+                    "{place:?}: a direction of length {}",
+                    direction.length()
+                );
+                let lens_point = f64::from(estimator.lens.diameter) / 2.0
+                    * (f64::from(place.disk[0]) * u + f64::from(place.disk[1]) * v);
+                let start = (origin - eye - lens_point).length() / diameter;
+                worst_start = worst_start.max(start);
+                ensure!(start < 1e-5, "{place:?} starts {start:.1e} D beside its lens point");
+
+                let depth = |point: DVec3| -w.dot(point - eye);
+                let met = origin + (focal_distance - depth(origin)) / -w.dot(direction) * direction;
+                let position =
+                    [0, 1].map(|axis| f64::from(place.pixel[axis]) + 0.5 + f64::from(place.offset[axis]));
+                let pixel = (project(met, size, vfov) - DVec2::from(position)).length();
+                worst_pixel = worst_pixel.max(pixel);
+                ensure!(pixel < 5e-3, "{place:?} is projected back {pixel:.1e} px beside itself");
+
+                let k = f64::from(size[1]) / 2.0 / (vfov.to_radians() / 2.0).tan();
+                let [x, y] = [0, 1].map(|axis| (position[axis] - f64::from(size[axis]) / 2.0) / k);
+                let centre_ray = x * u - y * v - w;
+                let focus = (met - eye - focal_distance * centre_ray).length() / focal_distance;
+                worst_focus = worst_focus.max(focus);
+                ensure!(focus < 1e-4, "{place:?} passes {focus:.1e} F beside the point in focus");
+                if place.pixel == [0, 0] {
+                    let on_sphere = eye + focal_distance * centre_ray.normalize();
+                    nearest_sphere = nearest_sphere.min((met - on_sphere).length() / focal_distance);
+                }
+                rays += 1;
+            }
+        }
+        ensure!(nearest_sphere > 1e-3, "the corner is too near a focal sphere to tell: {nearest_sphere} F");
+        Ok(format!(
+            "{rays} rays start within {worst_start:.1e} D, meet within {worst_focus:.1e} F, and are projected back \
+             within {worst_pixel:.1e} px; a focal sphere would be {nearest_sphere:.1e} F away at least"
+        ))
+    };
+    prove(
+        check,
+        &[
+            "focal_sphere",
+            "lens_radius_times_1.05",
+            "lens_radius_square_root",
+            "focal_distance_times_1.02",
+            "picture_upside_down",
+            "picture_mirrored",
+            "half_a_pixel_off",
+            "lens_point_mirrored",
+        ],
+    );
+}
+
+/// Catches a field of view measured across the width or the diagonal, to the centres of the outer
+/// pixels instead of their edges, or of twice or half the angle: the angles to the picture's edges
+/// and corners are known.
+#[test]
+fn the_field_of_view_reaches_every_edge_and_corner() {
+    let check = |gpu: &Gpu| -> Result<String> {
+        let (_, [u, v, w]) = frame();
+        let (mut count, mut worst) = (0, 0.0_f64);
+        for size in [[64, 48], [48, 64], [1920, 1080], [7, 7]] {
+            for vfov in [10.0, 45.0, 90.0, 150.0] {
+                let [width, height] = size;
+                // Left, middle, right times top, middle, bottom: from a pixel to its edge.
+                let ends = |extent: u32| {
+                    [
+                        (0, -0.5),
+                        ((extent - 1) / 2, if extent % 2 == 0 { 0.5 } else { 0.0 }),
+                        (extent - 1, 0.5),
+                    ]
+                };
+                let places: Vec<_> = (ends(height).into_iter())
+                    .flat_map(|y| {
+                        ends(width).map(|x| Place { pixel: [x.0, y.0], offset: [x.1, y.1], disk: [0.0; 2] })
+                    })
+                    .collect();
+                let rays = primary_rays(gpu, &slanted(size, vfov, 1.0, 5.0), &places);
+                let top = (vfov.to_radians() / 2.0).tan();
+                let side = top * f64::from(width) / f64::from(height);
+                for (i, (_, direction)) in rays.into_iter().enumerate() {
+                    let slopes = DVec2::new(u.dot(direction), v.dot(direction)) / -w.dot(direction);
+                    let expected = DVec2::new(side * [-1.0, 0.0, 1.0][i % 3], top * [1.0, 0.0, -1.0][i / 3]);
+                    let error = (slopes.x.atan() - expected.x.atan())
+                        .abs()
+                        .max((slopes.y.atan() - expected.y.atan()).abs());
+                    worst = worst.max(error);
+                    count += 1;
+                    ensure!(
+                        error < 2e-6,
+                        "{size:?}, {vfov} degrees, {:?}: {slopes}, not {expected}",
+                        places[i]
+                    );
+                }
+            }
+        }
+        Ok(format!("{count} edges, corners and centres within {worst:.1e} rad"))
+    };
+    prove(
+        check,
+        &["half_a_pixel_off", "field_of_view_by_the_width", "picture_upside_down", "picture_mirrored"],
+    );
+}
+
+/// Catches a pinhole that is not one: with no lens every ray starts at the eye, and the focal distance
+/// changes no bit of it.
+#[test]
+fn a_pinhole_has_one_ray_for_a_film_position() {
+    let check = |gpu: &Gpu| -> Result<String> {
+        let places: Vec<_> = (film_positions([33, 21]).into_iter())
+            .flat_map(|(pixel, offset)| {
+                lens_points().into_iter().map(move |disk| Place { pixel, offset, disk })
+            })
+            .collect();
+        let rays = [0.37, 10.0, 1e6]
+            .map(|focal_distance| primary_rays(gpu, &slanted([33, 21], 65.0, 0.0, focal_distance), &places));
+        ensure!(rays[0] == rays[1] && rays[0] == rays[2], "the focal distance changes the pinhole's rays");
+        ensure!(rays[0].iter().all(|(origin, _)| *origin == frame().0), "a ray that starts beside the eye");
+        Ok(format!("{} rays, the same bits at three focal distances", places.len()))
+    };
+    prove(check, &["focal_point_leaks_into_the_pinhole"]);
+}

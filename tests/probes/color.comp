@@ -1,0 +1,26 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// The encoding of linear values.
+
+layout(local_size_x = 64) in;
+
+#include "color.glsl"
+
+struct In {
+    vec3 linear;
+};
+
+struct Out {
+    vec3 encoded;
+};
+
+layout(set = 0, binding = 0, std430) readonly buffer Inputs { In inputs[]; };
+layout(set = 0, binding = 1, std430) writeonly buffer Outputs { Out outputs[]; };
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i < inputs.length()) {
+        outputs[i].encoded = srgb_encode(inputs[i].linear);
+    }
+}

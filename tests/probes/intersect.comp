@@ -1,0 +1,35 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// What a ray meets first, and whether it meets anything before a limit.
+
+layout(local_size_x = 64) in;
+
+#include "intersect.glsl"
+
+struct In {
+    vec3 origin;
+    vec3 direction;
+    float limit;
+};
+
+struct Out {
+    vec3 normal; // unit length, of the surface, on either side
+    float distance;
+    uint shape;
+    uint occluded;
+};
+
+layout(set = 0, binding = 0, std430) readonly buffer Inputs { In inputs[]; };
+layout(set = 0, binding = 1, std430) writeonly buffer Outputs { Out outputs[]; };
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i < inputs.length()) {
+        In given = inputs[i];
+        Ray ray = Ray(given.origin, given.direction);
+        Hit hit = intersect_scene(ray);
+        vec3 normal = surface_normal(hit, ray.origin + hit.distance * ray.direction);
+        outputs[i] = Out(normal, hit.distance, hit.shape, uint(occluded(ray, given.limit)));
+    }
+}

@@ -1,0 +1,34 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// The radiance along a ray.
+
+layout(local_size_x = 64) in;
+
+#include "shading.glsl"
+
+struct In {
+    vec3 origin;
+    vec3 direction;
+};
+
+struct Out {
+    vec3 radiance;
+    uint rays;
+};
+
+layout(push_constant, std430) uniform RadiancePush {
+    uint max_bounces;
+} push;
+
+layout(set = 0, binding = 0, std430) readonly buffer Inputs { In inputs[]; };
+layout(set = 0, binding = 1, std430) writeonly buffer Outputs { Out outputs[]; };
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i < inputs.length()) {
+        uint rays = 0u;
+        vec3 sum = radiance(Ray(inputs[i].origin, inputs[i].direction), push.max_bounces, rays);
+        outputs[i] = Out(sum, rays);
+    }
+}

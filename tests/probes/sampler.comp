@@ -1,0 +1,30 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// The values of samples, as whole numbers of 2^-24.
+
+layout(local_size_x = 64) in;
+
+#include "sampling.glsl"
+
+struct In {
+    uvec2 pixel;
+    uint sample_index;
+    uint seed;
+};
+
+struct Out {
+    uvec4 values;
+};
+
+layout(set = 0, binding = 0, std430) readonly buffer Inputs { In inputs[]; };
+layout(set = 0, binding = 1, std430) writeonly buffer Outputs { Out outputs[]; };
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i < inputs.length()) {
+        In given = inputs[i];
+        vec4 xi = sample_values(given.seed, given.pixel, given.sample_index, BLOCK_FILM_AND_LENS);
+        outputs[i].values = uvec4(xi * 16777216.0);
+    }
+}

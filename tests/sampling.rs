@@ -1,0 +1,332 @@
+//! The sampler, and what becomes of its values: places on the film and on the lens.
+
+mod common;
+
+use anyhow::{Result, ensure};
+use bytemuck::{Pod, Zeroable};
+use common::probe::probe;
+use common::statistics::{evenness_p, normal_p, sidak};
+use common::{Gpu, prove};
+use std::collections::HashSet;
+use std::f64::consts::{FRAC_PI_4, TAU};
+use thinlens::reference::sampler;
+
+/// Sample values are multiples of this.
+const STEP: f64 = 1.0 / 16_777_216.0;
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+struct Index {
+    pixel: [u32; 2],
+    sample_index: u32,
+    seed: u32,
+}
+
+/// The device's sample values, in multiples of [`STEP`].
+fn bits(gpu: &Gpu, indices: &[Index]) -> Vec<[u32; 4]> {
+    probe(gpu, "sampler", None, &[], indices)
+}
+
+fn indices(size: [u32; 2], sample_index: u32, seed: u32) -> Vec<Index> {
+    let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
+    pixels.map(|pixel| Index { pixel, sample_index, seed }).collect()
+}
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+struct Values {
+    film: [f32; 2],
+    lens: [f32; 2],
+    jitter: f32,
+    pad0: u32,
+}
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+struct Warped {
+    offset: [f32; 2],
+    landing: [i32; 2],
+    disk: [f32; 2],
+}
+
+fn warp(gpu: &Gpu, values: &[Values]) -> Vec<Warped> {
+    probe(gpu, "warps", None, &[], values)
+}
+
+/// The device's disk map.
+fn disk(gpu: &Gpu, squares: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let values: Vec<_> = (squares.iter())
+        .map(|square| Values { lens: square.map(|value| value as f32), ..Zeroable::zeroed() })
+        .collect();
+    warp(gpu, &values).iter().map(|warped| warped.disk.map(f64::from)).collect()
+}
+
+/// Points of the unit square, `n` by `n`, edges and diagonals among them. 1 / (n - 1) must be exact.
+fn grid(n: u32) -> Vec<[f64; 2]> {
+    let at = |i: u32| f64::from(i) / f64::from(n - 1);
+    (0..n).flat_map(|y| (0..n).map(move |x| [at(x), at(y)])).collect()
+}
+
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+/// Catches a hash that differs between the shaders and the oracle in any bit that is used.
+#[test]
+fn sample_values_are_the_oracles_to_the_bit() {
+    let check = |gpu: &Gpu| -> Result<String> {
+        let mut compared = 0;
+        for (sample_index, seed) in [(0, 0), (0, 1), (77, 0xffff_ffff), ((1 << 24) - 1, 7)] {
+            let indices = indices([100, 100], sample_index, seed);
+            for (index, values) in indices.iter().zip(bits(gpu, &indices)) {
+                let expected = sampler::sample_values(seed, index.pixel, sample_index, 0);
+                ensure!(values.map(|value| f64::from(value) * STEP) == expected, "{index:?}: {values:?}");
+                compared += 4;
+            }
+        }
+        Ok(format!("{compared} sample values, none differs"))
+    };
+    prove(check, &["hash_without_its_fold", "sampler_without_seed", "sampler_without_pixel"]);
+}
+
+/// Catches a disk map that is not Shirley and Chiu's: centre, axes and corners are known; the inverse
+/// leads back to the square from everywhere, which a folded map's does not; and no point leaves the
+/// disk.
+#[test]
+fn the_disk_map_is_concentric_and_has_an_inverse() {
+    let check = |gpu: &Gpu| -> Result<String> {
+        let half = 0.5_f64.sqrt();
+        let fixed = [
+            ([0.5, 0.5], [0.0, 0.0]),
+            ([1.0, 0.5], [1.0, 0.0]),
+            ([0.0, 0.5], [-1.0, 0.0]),
+            ([0.5, 1.0], [0.0, 1.0]),
+            ([0.5, 0.0], [0.0, -1.0]),
+            ([1.0, 1.0], [half, half]),
+            ([0.0, 1.0], [-half, half]),
+            ([0.0, 0.0], [-half, -half]),
+            ([1.0, 0.0], [half, -half]),
+            ([0.75, 0.5], [0.5, 0.0]),
+        ];
+        let (squares, expected): (Vec<_>, Vec<_>) = fixed.into_iter().unzip();
+        for ((square, expected), got) in squares.iter().zip(expected).zip(disk(gpu, &squares)) {
+            ensure!(distance(got, expected) < 2e-7, "{square:?} goes to {got:?}, not {expected:?}");
+        }
+        let squares = grid(513);
+        let (mut largest, mut worst) = (0.0_f64, 0.0_f64);
+        for (square, got) in squares.iter().zip(disk(gpu, &squares)) {
+            largest = largest.max(got[0].hypot(got[1]));
+            worst = worst.max(distance(inverse(got), *square));
+            ensure!(largest <= 1.0 + 1e-6, "{square:?} leaves the disk: {got:?}");
+            ensure!(
+                distance(got, sampler::concentric_disk(*square)) < 1e-6,
+                "{square:?} is not the oracle's"
+            );
+            ensure!(worst < 1e-6, "{square:?} goes to {got:?}, which comes from {:?}", inverse(got));
+        }
+        Ok(format!("10 fixed points, {} points back within {worst:.1e}, r <= {largest:.7}", squares.len()))
+    };
+    prove(
+        check,
+        &["disk_by_polar_angle", "disk_sector_mirrored", "disk_angle_doubled", "disk_radius_squared"],
+    );
+}
+
+/// Shirley and Chiu's map, the other way.
+fn inverse([x, y]: [f64; 2]) -> [f64; 2] {
+    let radius = x.hypot(y);
+    let (a, b) = if x.abs() >= y.abs() {
+        let signed = radius.copysign(x);
+        (signed, if x == 0.0 { 0.0 } else { signed * (y / x).atan() / FRAC_PI_4 })
+    } else {
+        let signed = radius.copysign(y);
+        (signed * (x / y).atan() / FRAC_PI_4, signed)
+    };
+    [0.5 * (a + 1.0), 0.5 * (b + 1.0)]
+}
+
+/// Catches a map that tears at the sectors' boundaries: neighbours in the square are neighbours on
+/// the disk. The map stretches by 1 + pi / 4 at most, times 2 from the unit square.
+#[test]
+fn the_disk_map_is_continuous_across_sectors() {
+    let check = |gpu: &Gpu| -> Result<String> {
+        const N: usize = 513;
+        let points = disk(gpu, &grid(513));
+        let spacing = 1.0 / (N - 1) as f64;
+        let limit = 2.0 * (1.0 + FRAC_PI_4) * spacing;
+        let mut widest = 0.0_f64;
+        for (x, y) in (1..N).flat_map(|y| (1..N).map(move |x| (x, y))) {
+            for neighbour in [y * N + x - 1, (y - 1) * N + x] {
+                let step = distance(points[y * N + x], points[neighbour]);
+                widest = widest.max(step);
+                ensure!(step < limit, "a step of {step} at column {x}, row {y}");
+            }
+        }
+        // Right at the diagonals, as close as f32 comes.
+        let near = |t: f64, side: f64| [[t, t + side * STEP], [t, 1.0 - t + side * STEP]];
+        let of_side = |side: f64| (1..256).flat_map(|i| near(f64::from(i) / 256.0, side)).collect::<Vec<_>>();
+        for (a, b) in disk(gpu, &of_side(-1.0)).into_iter().zip(disk(gpu, &of_side(1.0))) {
+            ensure!(distance(a, b) < 1e-6, "{a:?} and {b:?} lie on the two sides of a diagonal");
+        }
+        Ok(format!("steps of {spacing:.5} become {widest:.5} at most, {limit:.5} allowed"))
+    };
+    prove(check, &["disk_sector_mirrored", "disk_angle_doubled", "disk_sectors_swapped"]);
+}
+
+/// Catches a disk map that clusters: the device's own samples fill cells of equal area equally, and
+/// their moments are those of a uniform disk, 0 and 1/4.
+#[test]
+fn lens_points_fill_the_disk_evenly() {
+    const RINGS: usize = 8;
+    const SECTORS: usize = 16;
+    let check = |gpu: &Gpu| -> Result<String> {
+        let squares: Vec<_> = (0..4)
+            .flat_map(|sample_index| bits(gpu, &indices([256, 256], sample_index, 0xdead_beef)))
+            .map(|values| [values[2], values[3]].map(|value| f64::from(value) * STEP))
+            .collect();
+        let mut cells = [0; RINGS * SECTORS];
+        let mut sums = [0.0; 5];
+        for [x, y] in disk(gpu, &squares) {
+            let ring = (((x * x + y * y) * RINGS as f64) as usize).min(RINGS - 1);
+            let sector = (((y.atan2(x) / TAU + 0.5) * SECTORS as f64) as usize).min(SECTORS - 1);
+            cells[ring * SECTORS + sector] += 1;
+            for (sum, value) in sums.iter_mut().zip([x, y, x * x - 0.25, y * y - 0.25, x * y]) {
+                *sum += value;
+            }
+        }
+        let p = evenness_p(&cells);
+        ensure!(p > sidak(6), "cells of equal area are unequally full: p = {p:.1e}");
+        // Variances of a uniform disk: of x 1/4, of x^2 1/16, of x y 1/24.
+        let variances = [1.0 / 4.0, 1.0 / 4.0, 1.0 / 16.0, 1.0 / 16.0, 1.0 / 24.0];
+        let mut least = 1.0_f64;
+        for (sum, variance) in sums.iter().zip(variances) {
+            least = least.min(normal_p(sum / (variance * squares.len() as f64).sqrt()));
+            ensure!(least > sidak(6), "the moments {sums:?} of {} points are off", squares.len());
+        }
+        Ok(format!(
+            "{} points in {} cells, p = {p:.2}; five moments, least p = {least:.2}",
+            squares.len(),
+            cells.len()
+        ))
+    };
+    prove(check, &["disk_by_polar_angle", "disk_radius_squared", "disk_angle_doubled", "values_lose_bits"]);
+}
+
+/// Catches one random number used twice: film and lens, one sample and another, one frame's first
+/// sample and the next one's, a pixel and its neighbours, one seed and the next. Every pair of
+/// dimensions is held against independence by its correlation and by the evenness of its joint
+/// distribution.
+#[test]
+fn dimensions_samples_frames_pixels_and_seeds_are_independent() {
+    const WIDTH: usize = 256;
+    const CELLS: usize = 8;
+    let check = |gpu: &Gpu| -> Result<String> {
+        let values = |sample_index, seed| bits(gpu, &indices([256, 256], sample_index, seed));
+        let base = values(16, 5);
+        let shifted = |by: usize| base[by..].to_vec();
+        let others = [
+            ("itself", base.clone()),
+            ("the next sample", values(17, 5)),
+            ("the next frame's sample", values(32, 5)),
+            ("a far sample", values(16 + (1 << 20), 5)),
+            ("the next seed", values(16, 6)),
+            ("the right neighbour", shifted(1)),
+            ("the lower neighbour", shifted(WIDTH)),
+            ("the diagonal neighbour", shifted(WIDTH + 1)),
+            ("the pixel eight to the right", shifted(8)),
+        ];
+        let pairs = 2 * (others.len() * 16 - 4);
+        let mut least = 1.0_f64;
+        for (name, other) in &others {
+            let count = other.len() as f64;
+            for (a, b) in (0..4).flat_map(|a| (0..4).map(move |b| (a, b))) {
+                if *name == "itself" && a == b {
+                    continue;
+                }
+                let mut covariance = 0.0;
+                let mut cells = [0; CELLS * CELLS];
+                for (x, y) in base.iter().zip(other) {
+                    let (x, y) = (f64::from(x[a]) * STEP, f64::from(y[b]) * STEP);
+                    covariance += (x - 0.5) * (y - 0.5);
+                    cells[(x * CELLS as f64) as usize * CELLS + (y * CELLS as f64) as usize] += 1;
+                }
+                // Of independent uniform values, with variances of 1/12.
+                let correlated = normal_p(covariance * 12.0 / count.sqrt());
+                let uneven = evenness_p(&cells);
+                least = least.min(correlated).min(uneven);
+                ensure!(
+                    least > sidak(pairs),
+                    "dimension {a} of a sample and {b} of {name}: correlation p = {correlated:.1e}, \
+                     evenness p = {uneven:.1e}"
+                );
+            }
+        }
+        Ok(format!("{pairs} tests, least p = {least:.1e}, {:.1e} allowed", sidak(pairs)))
+    };
+    prove(
+        check,
+        &[
+            "lens_values_from_the_film",
+            "sampler_without_index",
+            "sampler_without_seed",
+            "sampler_without_pixel",
+            "hash_without_its_rounds",
+        ],
+    );
+}
+
+/// Catches the same jitter in every frame, or in every sixteenth, which would freeze the noise: the
+/// set of places in a pixel keeps growing.
+#[test]
+fn every_sample_has_another_place_in_its_pixel() {
+    let check = |gpu: &Gpu| -> Result<String> {
+        let indices: Vec<_> =
+            (0..4096).map(|sample_index| Index { pixel: [5, 3], sample_index, seed: 9 }).collect();
+        let mut seen = HashSet::new();
+        for (frame, samples) in bits(gpu, &indices).chunks(16).enumerate() {
+            let before = seen.len();
+            seen.extend(samples.iter().map(|values| [values[0], values[1]]));
+            ensure!(seen.len() == before + 16, "frame {frame} adds {} places of 16", seen.len() - before);
+        }
+        Ok(format!("{} places after 256 frames of 16 samples", seen.len()))
+    };
+    prove(check, &["sampler_without_index", "index_within_the_frame_only"]);
+}
+
+/// Catches samples that land one pixel off at the edge of a pixel, to either side, and jitter of the
+/// wrong width: the oracle's floor of exact numbers decides, and the reach that accumulation looks
+/// around is enough.
+#[test]
+fn samples_land_where_their_offset_says() {
+    let check = |gpu: &Gpu| -> Result<String> {
+        let mut compared = 0;
+        for jitter in [0.0_f32, 1.0, 2.2, 3.0, 15.0] {
+            let reach = thinlens::renderer::schedule::reach(jitter);
+            // The ends, what lies next to each pixel's edge, and a grid.
+            let edges = (-8..8).map(|edge| (f64::from(edge) + 0.5) / f64::from(jitter.max(1.0)) + 0.5);
+            let near = edges.flat_map(|edge| [edge - STEP, edge, edge + STEP]);
+            let places: Vec<_> = (near.chain((0..1000).map(|i| f64::from(i) / 1000.0)))
+                .map(|xi| (xi / STEP).round().clamp(0.0, 16_777_215.0) * STEP)
+                .collect();
+            let values: Vec<_> = (places.iter())
+                .map(|xi| Values { film: [*xi as f32, 1.0 - *xi as f32], jitter, ..Zeroable::zeroed() })
+                .collect();
+            for (values, warped) in values.iter().zip(warp(gpu, &values)) {
+                for axis in 0..2 {
+                    let offset = (f64::from(values.film[axis]) - 0.5) * f64::from(jitter);
+                    ensure!((f64::from(warped.offset[axis]) - offset).abs() < 1e-6, "{values:?}: {warped:?}");
+                    // The product is rounded to f32 before it is floored.
+                    let landing = f64::from(((offset as f32) + 0.5).floor());
+                    ensure!(f64::from(warped.landing[axis]) == landing, "{values:?}: {warped:?}");
+                    ensure!(
+                        warped.landing[axis].unsigned_abs() <= reach || values.film[axis] == 1.0,
+                        "{values:?}"
+                    );
+                }
+                compared += 1;
+            }
+        }
+        Ok(format!("{compared} places"))
+    };
+    prove(check, &["landing_truncated", "jitter_to_both_sides"]);
+}
