@@ -3,7 +3,7 @@
 use crate::error::{Error, Result};
 use crate::reference::Reference;
 use crate::renderer::Renderer;
-use crate::settings::{DeviceChoice, Estimator, Settings};
+use crate::settings::{DeviceChoice, Settings};
 use crate::vulkan::{Device, Instance};
 
 /// Two samples agree when every channel does within this share of the oracle's value or of one,
@@ -67,16 +67,12 @@ impl Agreement {
     }
 }
 
-/// Renders one sample a pixel with each of the seeds `seed .. seed + samples` on the device, and
-/// with the oracle as `oracle` makes it of the same settings, and compares sample by sample.
+/// Renders one sample a pixel with each of the seeds `seed .. seed + samples` on the device and with
+/// the oracle, compares sample by sample, and fails outside the bounds.
 ///
 /// # Errors
-/// What Vulkan says, or [`Error::OutOfRange`].
-pub fn compare(
-    renderer: &mut Renderer,
-    settings: &Settings,
-    oracle: impl Fn(&Estimator) -> Estimator,
-) -> Result<Agreement> {
+/// What Vulkan says, [`Error::OutOfRange`], or [`Error::Disagreement`].
+pub fn verify(renderer: &mut Renderer, settings: &Settings) -> Result<Agreement> {
     let mut agreement = Agreement::default();
     let mut settings = settings.clone();
     let (first, count) = (settings.estimator.seed, settings.samples);
@@ -85,18 +81,8 @@ pub fn compare(
         settings.estimator.seed = first.wrapping_add(seed);
         renderer.set(&settings)?;
         renderer.render(|_| ())?;
-        let estimator = oracle(&settings.estimator);
-        agreement.add(&renderer.read_film()?, &Reference::new(&estimator).render(1));
+        agreement.add(&renderer.read_film()?, &Reference::new(&settings.estimator).render(1));
     }
-    Ok(agreement)
-}
-
-/// Compares, and fails outside the bounds.
-///
-/// # Errors
-/// As [`compare`], or [`Error::Disagreement`].
-pub fn verify(renderer: &mut Renderer, settings: &Settings) -> Result<Agreement> {
-    let agreement = compare(renderer, settings, Estimator::clone)?;
     if agreement.holds() {
         return Ok(agreement);
     }

@@ -177,7 +177,7 @@ fn the_field_of_view_reaches_every_edge_and_corner() {
                 let ends = |extent: u32| {
                     [
                         (0, -0.5),
-                        ((extent - 1) / 2, if extent % 2 == 0 { 0.5 } else { 0.0 }),
+                        ((extent - 1) / 2, if extent.is_multiple_of(2) { 0.5 } else { 0.0 }),
                         (extent - 1, 0.5),
                     ]
                 };

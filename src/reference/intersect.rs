@@ -6,16 +6,17 @@ use glam::{DMat3, DVec3};
 
 /// A point where a ray meets a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Hit {
+pub struct Hit {
     /// Along the ray.
-    pub(super) distance: f64,
+    pub distance: f64,
     /// Unit length, on the side the ray comes from.
-    pub(super) normal: DVec3,
-    pub(super) material: u32,
+    pub normal: DVec3,
+    /// Index into [`Scene::materials`].
+    pub material: u32,
 }
 
 /// The nearest hit farther than `least`.
-pub(super) fn intersect(scene: &Scene, ray: Ray, least: f64) -> Option<Hit> {
+pub fn intersect(scene: &Scene, ray: Ray, least: f64) -> Option<Hit> {
     let spheres = scene.spheres.iter().map(|of| (sphere(&of.shape, ray, least), of.material));
     let boxes = scene.boxes.iter().map(|of| (aabb(&of.shape, ray, least), of.material));
     let triangles = scene.triangles.iter().map(|of| (triangle(&of.shape, ray, least), of.material));

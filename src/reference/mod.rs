@@ -7,9 +7,9 @@
 
 mod camera;
 pub mod film;
-mod intersect;
+pub mod intersect;
 pub mod sampler;
-mod shading;
+pub mod shading;
 pub mod tone;
 
 use crate::settings::Estimator;

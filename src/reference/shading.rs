@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 const LEAST_DISTANCE: f64 = 1e-9;
 
 /// What arrives along `ray`, with at most `bounces` reflections.
-pub(super) fn radiance(scene: &Scene, ray: Ray, bounces: u32) -> DVec3 {
+pub fn radiance(scene: &Scene, ray: Ray, bounces: u32) -> DVec3 {
     radiance_beyond(scene, ray, 0.0, bounces)
 }
 

@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each test file uses a part")]
 
 pub mod probe;
+pub mod scenes;
 pub mod statistics;
 
 use std::path::{Path, PathBuf};

@@ -64,10 +64,11 @@ impl Moments {
         self.variance() / self.count
     }
 
-    /// How surely two means differ: B. Welch, Biometrika 34, 1947. Equal numbers without any spread
-    /// do not differ, unequal ones do.
-    pub fn difference_p(&self, other: &Self) -> f64 {
-        let difference = self.mean - other.mean;
+    /// How unlikely it is by chance that two means differ as much, beyond a share of them that may
+    /// be lost by rounding: B. Welch, Biometrika 34, 1947. Numbers without any spread differ surely
+    /// or not at all.
+    pub fn difference_p(&self, other: &Self, rounding: f64) -> f64 {
+        let difference = ((self.mean - other.mean).abs() - rounding * other.mean.abs()).max(0.0);
         let (a, b) = (self.mean_variance(), other.mean_variance());
         if a + b == 0.0 {
             return if difference == 0.0 { 1.0 } else { 0.0 };

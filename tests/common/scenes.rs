@@ -1,0 +1,84 @@
+//! Scenes that several tests look at.
+
+/// A scene with every kind of shape, material and light, seen from close by.
+pub const EVERYTHING: &str = r#"
+[camera]
+eye = [0.3, 1.5, 4]
+look_at = [0, 0.8, 0]
+vfov_degrees = 55
+lens_diameter = 0.4
+focal_distance = 3.6
+[background]
+horizon = [0.9, 0.6, 0.4]
+zenith = [0.1, 0.2, 0.6]
+[ambient]
+radiance = 0.4
+[[directional]]
+direction = [0.5, 1, 0.7]
+radiance = 2
+[[point]]
+position = [-2, 3, 2]
+color = [1, 0.7, 0.5]
+radiance = 1.5
+[matte.floor]
+ka = 0.5
+kd = 0.8
+color = { even = [0.8, 0.8, 0.7], odd = [0.2, 0.3, 0.3], size = 0.7 }
+[phong.shiny]
+ka = 0.3
+kd = 0.6
+ks = 0.4
+exponent = 25
+color = [0.3, 0.1, 0.6]
+[mirror.glass]
+kr = 0.8
+color = [0.9, 1, 0.8]
+ks = 0.3
+exponent = 80
+[emissive.lamp]
+radiance = 3
+[[plane]]
+point = [0, 0, 0]
+normal = [0, 1, 0]
+material = "floor"
+[[sphere]]
+center = [-0.9, 0.7, 0.2]
+radius = 0.7
+material = "glass"
+[[sphere]]
+center = [1.6, 1.8, -1]
+radius = 0.2
+material = "lamp"
+[[box]]
+lower = [0.4, 0, -0.6]
+upper = [1.2, 1.1, 0.3]
+material = "shiny"
+[[triangle]]
+vertices = [[-0.2, 0, 1], [0.5, 0, 1.2], [0.1, 0.9, 0.7]]
+material = "glass"
+"#;
+
+/// A room seen from inside, and a ball beyond its lamp that must not shadow anything.
+pub const ROOM: &str = r#"
+[camera]
+eye = [0.2, 0.1, 1.8]
+look_at = [0, 0, 0]
+vfov_degrees = 80
+lens_diameter = 0.1
+focal_distance = 2
+[[point]]
+position = [0.3, 0.6, 0.4]
+radiance = 3
+[matte.wall]
+ka = 0
+kd = 0.8
+color = { even = [0.9, 0.8, 0.7], odd = [0.3, 0.4, 0.5], size = 0.37 }
+[[box]]
+lower = [-1.5, -1, -2]
+upper = [1.5, 1.2, 2]
+material = "wall"
+[[sphere]]
+center = [0.5, 0.95, 0.6]
+radius = 0.15
+material = "wall"
+"#;

@@ -1,0 +1,347 @@
+//! What rays meet, what they show there, and how it is encoded: the shaders' functions one by one,
+//! against the oracle.
+
+mod common;
+
+use anyhow::{Result, ensure};
+use bytemuck::{Pod, Zeroable};
+use common::probe::probe;
+use common::scenes::{EVERYTHING, ROOM};
+use common::{Gpu, prove, scene_of};
+use glam::{DVec3, Vec3};
+use thinlens::reference::intersect::intersect;
+use thinlens::reference::shading::radiance;
+use thinlens::reference::{Ray, sampler, tone};
+use thinlens::scene::SceneRef;
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+struct Question {
+    origin: [f32; 3],
+    pad0: u32,
+    direction: [f32; 3],
+    limit: f32,
+}
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+struct Answer {
+    normal: [f32; 3],
+    distance: f32,
+    shape: u32,
+    occluded: u32,
+    pad0: [u32; 2],
+}
+
+/// Beyond every hit.
+const FAR: f32 = 1e29;
+
+impl Question {
+    fn new(origin: DVec3, direction: DVec3) -> Self {
+        Self {
+            origin: origin.as_vec3().to_array(),
+            pad0: 0,
+            direction: direction.normalize().as_vec3().to_array(),
+            limit: FAR,
+        }
+    }
+
+    /// The ray as the device sees it, rounded.
+    fn ray(&self) -> Ray {
+        Ray {
+            origin: Vec3::from_array(self.origin).as_dvec3(),
+            direction: Vec3::from_array(self.direction).as_dvec3().normalize(),
+        }
+    }
+}
+
+/// Values in [-1, 1), four for each index.
+fn random(index: u32, stream: u32) -> [f64; 4] {
+    sampler::sample_values(stream, [index, 0], 0, 0).map(|value| 2.0 * value - 1.0)
+}
+
+fn random_direction(index: u32, stream: u32) -> DVec3 {
+    // A point of the sphere from its height and its angle: Archimedes.
+    let [height, turn, ..] = random(index, stream);
+    let angle = std::f64::consts::PI * turn;
+    let radius = (1.0 - height * height).sqrt();
+    DVec3::new(radius * angle.cos(), height, radius * angle.sin())
+}
+
+/// Rays from all around, and from inside, the cube of half edge `extent` around the origin, half of
+/// them aimed near the middle; and rays along the axes, whose directions have zeros.
+fn rays(extent: f64, count: u32) -> Vec<Question> {
+    let somewhere = |index, stream| {
+        let [x, y, z, _] = random(index, stream);
+        extent * DVec3::new(x, y, z)
+    };
+    let mut all: Vec<_> = (0..count)
+        .map(|index| {
+            let origin = somewhere(index, 1);
+            let direction =
+                if index % 2 == 0 { random_direction(index, 2) } else { 0.4 * somewhere(index, 3) - origin };
+            Question::new(origin, direction)
+        })
+        .collect();
+    for index in 0..count / 8 {
+        for axis in DVec3::AXES.into_iter().chain(DVec3::NEG_AXES) {
+            all.push(Question::new(somewhere(index, 4), axis));
+        }
+    }
+    all
+}
+
+trait NegatedAxes {
+    const NEG_AXES: [DVec3; 3];
+}
+
+impl NegatedAxes for DVec3 {
+    const NEG_AXES: [DVec3; 3] = [DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
+}
+
+const CAMERA: &str = "[camera]\neye = [0, 0, 9]\nlook_at = [0, 0, 0]\nvfov_degrees = 40\nlens_diameter = 0\n\
+                      focal_distance = 9\n";
+
+/// Shapes, each with a material of its own in the order of the shaders' numbers.
+fn scene(shapes: &[(&str, &str)]) -> SceneRef {
+    let mut toml = CAMERA.to_owned();
+    for (number, (kind, keys)) in shapes.iter().enumerate() {
+        toml += &format!(
+            "[emissive.m{number}]\nradiance = {number}\n[[{kind}]]\n{keys}\nmaterial = \"m{number}\"\n"
+        );
+    }
+    scene_of(&toml)
+}
+
+fn shapes() -> Vec<(&'static str, SceneRef)> {
+    let sphere = ("sphere", "center = [0.3, -0.2, 0.4]\nradius = 1.3");
+    let far_sphere = ("sphere", "center = [1.5, 0.5, -0.9]\nradius = 0.4");
+    let a_box = ("box", "lower = [-1.2, -0.7, -0.4]\nupper = [0.9, 0.8, 1.1]");
+    let triangle = ("triangle", "vertices = [[-1.5, -1, 0.3], [1.2, -0.8, -0.2], [0.1, 1.6, 0.5]]");
+    let plane = ("plane", "point = [0.2, -0.5, 0.1]\nnormal = [0.3, 2, -0.4]");
+    vec![
+        ("sphere", scene(&[sphere])),
+        ("box", scene(&[a_box])),
+        ("triangle", scene(&[triangle])),
+        ("plane", scene(&[plane])),
+        ("all of them", scene(&[sphere, far_sphere, a_box, triangle, plane])),
+    ]
+}
+
+/// Catches an intersection that is wrong anywhere: from inside, from behind, along an axis, on the
+/// wrong face, or of the shape behind the nearest. Rays from everywhere, against each kind of shape
+/// and all together. At an edge rounding decides what a ray meets, so a few may differ, and are counted.
+#[test]
+fn rays_meet_what_the_oracles_meet() {
+    let check = |gpu: &Gpu| -> Result<String> {
+        let questions = rays(4.0, 8192);
+        let (mut met, mut missed, mut differ) = (0, 0, 0_usize);
+        let (mut worst_distance, mut worst_normal) = (0.0_f64, 0.0_f64);
+        for (name, scene) in shapes() {
+            let mut off = Vec::new();
+            for (question, answer) in
+                questions.iter().zip(probe::<_, Answer>(gpu, "intersect", Some(&scene), &[], &questions))
+            {
+                let expected = intersect(&scene, question.ray(), 0.0);
+                let hit = answer.distance < FAR;
+                let same = match expected {
+                    None => !hit && answer.occluded == 0,
+                    Some(expected) => {
+                        let distance = (f64::from(answer.distance) - expected.distance).abs()
+                            / expected.distance.max(1.0);
+                        let normal = Vec3::from_array(answer.normal).as_dvec3();
+                        // On either side; the oracle's looks at the ray's origin.
+                        let turn =
+                            (normal - expected.normal).length().min((normal + expected.normal).length());
+                        let same = hit
+                            && answer.occluded == 1
+                            && answer.shape == expected.material
+                            && distance < 1e-4
+                            && turn < 1e-3;
+                        if same {
+                            (worst_distance, worst_normal) =
+                                (worst_distance.max(distance), worst_normal.max(turn));
+                        }
+                        same
+                    }
+                };
+                *if expected.is_some() { &mut met } else { &mut missed } += 1;
+                if !same {
+                    off.push((question, answer, expected));
+                }
+            }
+            ensure!(
+                off.len() * 5000 <= questions.len(),
+                "{name}: {} of {} rays differ, such as {:?}",
+                off.len(),
+                questions.len(),
+                off[0]
+            );
+            differ += off.len();
+        }
+        Ok(format!(
+            "{met} hits and {missed} misses, {differ} differ, the others by {worst_distance:.1e} of the distance and \
+             {worst_normal:.1e} of the normal"
+        ))
+    };
+    prove(
+        check,
+        &[
+            "sphere_met_from_outside_only",
+            "sphere_normal_not_centred",
+            "box_met_from_outside_only",
+            "box_normal_of_the_far_face",
+            "box_blind_along_the_axes",
+            "triangle_a_parallelogram",
+            "triangle_of_one_side",
+            "plane_on_the_other_side_of_the_origin",
+            "plane_met_behind_the_ray",
+            "farthest_hit_kept",
+            "shapes_numbered_by_kind",
+        ],
+    );
+}
+
+/// Catches shadows cast by what lies beyond the lamp, and none by what lies just before it: whether
+/// a hit counts turns where the limit passes it.
+#[test]
+fn only_what_lies_nearer_than_the_limit_occludes() {
+    let check = |gpu: &Gpu| -> Result<String> {
+        let mut count = 0;
+        for (name, scene) in shapes() {
+            let hits = rays(4.0, 2048).into_iter().filter_map(|question| {
+                let hit = intersect(&scene, question.ray(), 0.0)?;
+                // A hit at the origin's own surface is too near for a share of it to matter.
+                (hit.distance > 0.01).then_some((question, hit.distance as f32))
+            });
+            let questions: Vec<_> = hits
+                .flat_map(|(question, distance)| {
+                    [0.99, 1.01, 1e6].map(|share| Question { limit: share * distance, ..question })
+                })
+                .collect();
+            let answers: Vec<Answer> = probe(gpu, "intersect", Some(&scene), &[], &questions);
+            let wrong = (answers.chunks(3))
+                .filter(|of_hit| [0, 1, 2].map(|i| of_hit[i].occluded) != [0, 1, 1])
+                .count();
+            ensure!(
+                wrong * 1000 <= answers.len(),
+                "{name}: {wrong} of {} hits occlude wrongly",
+                answers.len() / 3
+            );
+            count += answers.len() / 3;
+        }
+        Ok(format!("{count} hits, each before, behind and far below the limit"))
+    };
+    prove(check, &["shadow_limit_ignored", "shadow_limit_squared", "planes_cast_no_shadow"]);
+}
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+struct ShadingRay {
+    origin: [f32; 3],
+    pad0: u32,
+    direction: [f32; 3],
+    pad1: u32,
+}
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+struct Shown {
+    radiance: [f32; 3],
+    rays: u32,
+}
+
+/// Catches a wrong factor, light, shadow, checker, highlight, mirror or sky: the radiance along rays
+/// from everywhere in scenes with every kind of thing. At edges, of shapes, shadows and checks, a few
+/// may differ, and are counted.
+#[test]
+fn rays_show_what_the_oracles_show() {
+    let check = |gpu: &Gpu| -> Result<String> {
+        let (mut count, mut differ, mut worst) = (0, 0, 0.0_f64);
+        for (name, toml, extent) in [("everything", EVERYTHING, 3.0), ("room", ROOM, 0.95)] {
+            let scene = scene_of(toml);
+            for max_bounces in [0_u32, 1, 4] {
+                let rays: Vec<_> = rays(extent, 8192)
+                    .iter()
+                    .map(|ray| ShadingRay { origin: ray.origin, pad0: 0, direction: ray.direction, pad1: 0 })
+                    .collect();
+                let shown: Vec<Shown> =
+                    probe(gpu, "radiance", Some(&scene), bytemuck::bytes_of(&max_bounces), &rays);
+                let mut off = 0;
+                for (ray, shown) in rays.iter().zip(shown) {
+                    let ray = Question::new(
+                        Vec3::from_array(ray.origin).as_dvec3(),
+                        Vec3::from_array(ray.direction).as_dvec3(),
+                    )
+                    .ray();
+                    let expected = radiance(&scene, ray, max_bounces);
+                    let error = (Vec3::from_array(shown.radiance).as_dvec3() - expected).abs().max_element()
+                        / expected.max_element().max(1.0);
+                    ensure!(shown.rays >= 1, "a ray that is not counted");
+                    if error > 2e-4 {
+                        off += 1;
+                    } else {
+                        worst = worst.max(error);
+                    }
+                }
+                ensure!(
+                    off * 400 <= rays.len(),
+                    "{name}, {max_bounces} bounces: {off} of {} rays differ",
+                    rays.len()
+                );
+                (count, differ) = (count + rays.len(), differ + off);
+            }
+        }
+        Ok(format!("{count} rays, {differ} differ, the others by {worst:.1e} at most"))
+    };
+    prove(
+        check,
+        &[
+            "ambient_counted_twice",
+            "lambert_without_pi",
+            "cosine_forgotten",
+            "checker_in_two_dimensions",
+            "checker_without_its_shift",
+            "phong_exponent_halved",
+            "highlight_around_the_normal",
+            "shadow_limit_ignored",
+            "shadows_forgotten",
+            "point_light_taken_for_a_direction",
+            "mirror_one_bounce_short",
+            "mirror_loses_light",
+            "box_normal_of_the_far_face",
+            "sky_upside_down",
+        ],
+    );
+}
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+struct Linear {
+    value: [f32; 3],
+    pad0: u32,
+}
+
+/// Catches a power of 2.2 for the sRGB curve, a missing foot of it, and values beyond white or below
+/// black that wrap: a tenth of a step of eight bits is the bound.
+#[test]
+fn colours_are_encoded_as_srgb() {
+    let check = |gpu: &Gpu| -> Result<String> {
+        let values: Vec<_> = (-64..=4160)
+            .map(|i| f64::from(i) / 4096.0)
+            .chain((0..400).map(|i| f64::from(i) / 1e5))
+            .chain([1e9, -1e9])
+            .map(|value| Linear { value: [value as f32, 0.5 * value as f32, 1.0 - value as f32], pad0: 0 })
+            .collect();
+        let mut worst = 0.0_f64;
+        for (linear, encoded) in values.iter().zip(probe::<_, Linear>(gpu, "color", None, &[], &values)) {
+            for (value, got) in linear.value.into_iter().zip(encoded.value) {
+                let error = (f64::from(got) - tone::srgb(value.into())).abs();
+                worst = worst.max(error);
+                ensure!(error < 0.1 / 255.0, "{value} is encoded as {got}");
+            }
+        }
+        Ok(format!("{} values within {worst:.1e}", 3 * values.len()))
+    };
+    prove(check, &["gamma_of_2.2", "srgb_without_its_foot", "srgb_not_clipped"]);
+}
