@@ -4,8 +4,11 @@ mod common;
 
 use common::scene_of;
 use glam::DVec3;
+use thinlens::reference::film::Film;
+use thinlens::reference::intersect::intersect;
 use thinlens::reference::sampler::{concentric_disk, pcg4d, sample_values};
-use thinlens::reference::{Reference, tone};
+use thinlens::reference::shading::radiance;
+use thinlens::reference::{Ray, Reference, tone};
 use thinlens::settings::Settings;
 
 /// Catches an oracle whose disk map is not Shirley and Chiu's: centre, axes and corners are known,
@@ -142,6 +145,125 @@ fn shading_has_the_values_of_its_formulas() {
         let radiance = Reference::new(&estimator).sample([0, 0], 0).radiance;
         assert!((radiance - expected).length() < 1e-6, "{scene}: {radiance}, not {expected}");
     }
+}
+
+/// Catches an intersection with the wrong root, face, side or order: each of these rays meets what a
+/// drawing shows. Materials are numbered in the order of the shapes.
+#[test]
+fn rays_meet_shapes_where_a_drawing_shows() {
+    let names = ["a", "b", "c", "d", "e"];
+    let materials = names.map(|name| format!("[emissive.{name}]\nradiance = 1\n")).concat();
+    let scene = scene_of(&format!(
+        "{CAMERA}{materials}[[sphere]]\ncenter = [10, 0, 0]\nradius = 2\nmaterial = \"a\"\n\
+         [[box]]\nlower = [-1, -2, -3]\nupper = [1, 2, 3]\nmaterial = \"b\"\n\
+         [[triangle]]\nvertices = [[0, 5, 0], [4, 5, 0], [0, 5, 4]]\nmaterial = \"c\"\n\
+         [[plane]]\npoint = [7, -9, 3]\nnormal = [0, -3, 0]\nmaterial = \"d\"\n\
+         [[plane]]\npoint = [0, 30, 40]\nnormal = [0, 3, 4]\nmaterial = \"e\"\n"
+    ));
+    let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
+    let at = DVec3::new;
+    let material = |name: &str| {
+        let found = names.iter().position(|other| *other == name).expect("a material");
+        u32::try_from(found).expect("few materials")
+    };
+    for (origin, direction, expected) in [
+        // The sphere from outside, inside, and off its centre by sqrt(3), where half a chord is 1.
+        (at(20.0, 0.0, 0.0), -x, Some((8.0, x, "a"))),
+        (at(10.0, 0.0, 0.0), x, Some((2.0, -x, "a"))),
+        (at(20.0, 3_f64.sqrt(), 0.0), -x, Some((9.0, at(0.5, 0.75_f64.sqrt(), 0.0), "a"))),
+        // The box from each side and from inside; beside it goes on to the plane.
+        (at(5.0, 0.0, 0.0), -x, Some((4.0, x, "b"))),
+        (at(0.0, -5.0, 0.0), y, Some((3.0, -y, "b"))),
+        (at(0.5, 1.0, -7.0), z, Some((4.0, -z, "b"))),
+        (at(0.0, 0.0, 0.0), -z, Some((3.0, z, "b"))),
+        (at(-1.5, 0.0, 0.0), -y, Some((9.0, y, "d"))),
+        // The triangle from above and below, and beside its long edge.
+        (at(1.0, 6.0, 1.0), -y, Some((1.0, y, "c"))),
+        (at(1.0, 4.5, 2.9), y, Some((0.5, -y, "c"))),
+        (at(2.1, 6.0, 2.1), -y, Some((15.0, y, "d"))),
+        // The slanted plane at distance 50 from the origin, and away from everything.
+        (at(0.0, 0.0, 40.0), at(0.0, 0.6, 0.8), Some((18.0, at(0.0, -0.6, -0.8), "e"))),
+        (at(0.0, 0.0, 40.0), at(1.0, 0.0, 0.0), None),
+    ] {
+        let hit = intersect(&scene, Ray { origin, direction }, 0.0);
+        let Some((distance, normal, name)) = expected else {
+            assert_eq!(hit, None, "{origin} along {direction}");
+            continue;
+        };
+        let hit = hit.unwrap_or_else(|| panic!("{origin} along {direction} meets nothing"));
+        let close = (hit.distance - distance).abs() < 1e-6 && (hit.normal - normal).length() < 1e-6;
+        assert!(close && hit.material == material(name), "{origin} along {direction}: {hit:?}");
+        let beyond = intersect(&scene, Ray { origin, direction }, distance + 1e-3);
+        assert!(beyond.is_none_or(|beyond| beyond.distance > distance + 1e-3), "{beyond:?} is too near");
+    }
+}
+
+/// Catches a checker of the wrong size, shift or parity, also below zero; a sky upside down or of
+/// another curve; a highlight around the wrong direction; and reflections that stop early or late.
+#[test]
+fn pictures_have_the_values_of_their_formulas() {
+    let ground = "[ambient]\nradiance = 1\n[matte.m]\nka = 1\nkd = 0\n\
+                  color = { even = [1, 1, 1], odd = [0, 0, 0], size = 2 }\n\
+                  [[plane]]\npoint = [0, 1, 0]\nnormal = [0, 1, 0]\nmaterial = \"m\"\n";
+    let down = |x: f64, z: f64| (DVec3::new(x, 5.0, z), -DVec3::Y);
+    let sky = "[background]\nhorizon = [1, 0, 0]\nzenith = [0, 0, 1]\n";
+    let slope = DVec3::new(3.0, 4.0, 0.0) / 5.0;
+    // Two mirrors face each other above a lamp that both show; each reflection keeps half.
+    let mirrors = "[background]\ncolor = [1, 1, 1]\n[mirror.m]\nkr = 0.5\ncolor = [1, 1, 1]\nks = 0\n\
+                   [[plane]]\npoint = [-1, 0, 0]\nnormal = [1, 0, 0]\nmaterial = \"m\"\n\
+                   [[plane]]\npoint = [1, 0, 0]\nnormal = [1, 0, 0]\nmaterial = \"m\"\n\
+                   [emissive.lamp]\nradiance = 16\n\
+                   [[plane]]\npoint = [0, 10, 0]\nnormal = [0, 1, 0]\nmaterial = \"lamp\"\n";
+    // 45 degrees: 10 up means 10 across, five mirrors on the way.
+    let up = (DVec3::new(0.0, 0.5, 0.0), DVec3::new(1.0, 1.0, 0.0).normalize());
+    let gloss = "[[directional]]\ndirection = [1, 1, 0]\nradiance = 2\n[phong.m]\nka = 0\nkd = 0\nks = 0.25\n\
+                 exponent = 3\ncolor = [1, 0, 0]\n\
+                 [[plane]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\nmaterial = \"m\"\n";
+    // The mirrored light leaves along (-1, 1, 0) / sqrt(2); straight up is 45 degrees off.
+    let highlight = 0.25 * 0.5_f64.sqrt().powi(3) * 2.0 * 0.5_f64.sqrt();
+    let all = DVec3::splat;
+    for (scene, (origin, direction), bounces, expected) in [
+        (ground, down(0.5, 0.5), 0, all(1.0)),
+        (ground, down(2.5, 0.5), 0, all(0.0)),
+        (ground, down(2.5, 3.5), 0, all(1.0)),
+        (ground, down(-0.5, 0.5), 0, all(0.0)),
+        (ground, down(-0.5, -3.0), 0, all(0.0)),
+        (ground, down(0.0001, 0.5), 0, all(0.0)),
+        (sky, (DVec3::ZERO, DVec3::X), 0, DVec3::X),
+        (sky, (DVec3::ZERO, -DVec3::Y), 0, DVec3::X),
+        (sky, (DVec3::ZERO, DVec3::Y), 0, DVec3::Z),
+        (sky, (DVec3::ZERO, slope), 0, DVec3::new(1.0 - 0.96, 0.0, 0.96)),
+        (mirrors, up, 4, all(0.0)),
+        (mirrors, up, 5, all(0.5)),
+        (mirrors, up, 64, all(0.5)),
+        (gloss, down(0.0, 0.0), 0, all(highlight)),
+    ] {
+        let scene = scene_of(&format!("{CAMERA}{scene}"));
+        let got = radiance(&scene, Ray { origin, direction }, bounces);
+        assert!(
+            (got - expected).length() < 1e-6,
+            "{origin} along {direction}, {bounces}: {got}, not {expected}"
+        );
+    }
+}
+
+/// Catches another mean, a landing in the wrong pixel, and a sample lost beside the film that is not.
+#[test]
+fn the_film_averages_what_lands() {
+    let mut film = Film::new([2, 1]);
+    for (start, offset, value) in [
+        ([0, 0], [0.0, 0.0], 1.0),
+        ([0, 0], [0.49, -0.5], 4.0),
+        ([1, 0], [-0.6, 0.2], 7.0),
+        ([0, 0], [0.5, 0.0], 3.0),
+        ([0, 0], [-0.51, 0.0], 100.0),
+        ([1, 0], [0.0, 0.5], 100.0),
+        ([1, 0], [0.0, 0.0], f64::NAN),
+    ] {
+        film.add(start, offset, DVec3::new(value, 0.5 * value, 0.0));
+    }
+    assert_eq!(film.rejected, 1);
+    assert_eq!(film.into_texels(), [[4.0, 2.0, 0.0, 3.0], [3.0, 1.5, 0.0, 1.0]]);
 }
 
 /// Catches a tone curve with a step: the two branches of sRGB meet.

@@ -55,6 +55,11 @@ impl Moments {
         moments
     }
 
+    /// Of so many numbers whose mean, and whose mean's standard error, are known.
+    pub fn known(count: f64, mean: f64, error: f64) -> Self {
+        Self { count, mean, sum_of_squares: error * error * count * (count - 1.0) }
+    }
+
     pub fn variance(&self) -> f64 {
         self.sum_of_squares / (self.count - 1.0)
     }

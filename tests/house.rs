@@ -1,4 +1,5 @@
-//! Which module may use which: the directions of the design.
+//! Rules of the house that the compiler does not know: which module may use which, and that planted
+//! faults are looked for.
 
 use std::path::Path;
 
@@ -77,4 +78,18 @@ fn a_forbidden_arrow_is_found() {
     assert_eq!(forbidden("vulkan", "use crate::scene::Scene;"), ["vulkan uses scene"]);
     assert_eq!(forbidden("scene", "fn f(a: crate::gpu_types::Sphere) {}"), ["scene uses gpu_types"]);
     assert!(forbidden("passes", "use crate::vulkan::Image; // not crate::scene").is_empty());
+}
+
+/// Catches a planted fault that no test looks for: it would prove nothing.
+#[test]
+fn every_planted_fault_is_looked_for() {
+    let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let list = std::fs::read_to_string(tests.join("faults.txt")).expect("a readable list");
+    let mut sources = String::new();
+    walk(&tests, &mut |path| sources += &std::fs::read_to_string(path).expect("a readable file"));
+    let is_name = |line: &&str| line.starts_with(|first: char| first.is_ascii_lowercase());
+    let names = list.lines().filter(is_name).filter_map(|line| line.split(' ').next());
+    let forgotten: Vec<_> = names.clone().filter(|name| !sources.contains(&format!("\"{name}\""))).collect();
+    assert_eq!(forgotten, Vec::<&str>::new());
+    assert!(names.count() > 50, "the list is read");
 }

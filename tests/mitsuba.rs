@@ -1,0 +1,137 @@
+//! Against a renderer of other authors: Mitsuba 3 with the same lens, matte spheres, checkered plane
+//! and directional light. `tests/mitsuba` has the scenes, Mitsuba's pictures of them, and the script
+//! that makes these; the test needs no Mitsuba.
+
+mod common;
+
+use anyhow::{Context, Result, ensure};
+use common::statistics::{Moments, SIGNIFICANCE, sidak};
+use common::{Gpu, film, prove};
+use exr::prelude::{ReadChannels, ReadLayers, read};
+use std::path::{Path, PathBuf};
+use thinlens::scene::{self, SceneRef};
+use thinlens::settings::Settings;
+
+/// What the two renderers may differ by besides noise, as a share of a value: both compute in f32.
+const BOUND: f64 = 1e-4;
+
+/// How many pictures Mitsuba's means are of: RUNS of render.py.
+const RUNS: f64 = 64.0;
+
+fn file(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join("mitsuba").join(name)
+}
+
+/// Mitsuba's mean of each channel of each pixel, with its spread.
+fn reference(name: &str, size: [u32; 2]) -> Result<Vec<[Moments; 3]>> {
+    let path = file(name).with_extension("exr");
+    let image = read().no_deep_data().largest_resolution_level().all_channels().first_valid_layer();
+    let image = image.all_attributes().from_file(&path);
+    let layer = image.with_context(|| format!("{}: run tests/mitsuba/render.py", path.display()))?.layer_data;
+    ensure!(
+        [layer.size.0, layer.size.1] == size.map(|extent| extent as usize),
+        "{name}: {:?} pixels",
+        layer.size
+    );
+    let channel = |name: &str| -> Result<Vec<f64>> {
+        let found = layer.channel_data.list.iter().find(|channel| channel.name.eq(name));
+        let found = found.with_context(|| format!("{} has no channel {name}", path.display()))?;
+        Ok(found.sample_data.values_as_f32().map(f64::from).collect())
+    };
+    let mut pixels = vec![[Moments::default(); 3]; layer.size.0 * layer.size.1];
+    for (number, name) in ["R", "G", "B"].into_iter().enumerate() {
+        let spread = channel(name)?.into_iter().zip(channel(&format!("error.{name}"))?);
+        for (pixel, (mean, error)) in pixels.iter_mut().zip(spread) {
+            pixel[number] = Moments::known(RUNS, mean, error);
+        }
+    }
+    Ok(pixels)
+}
+
+/// Catches a mistake that the shaders and the oracle share, of the lens, the field of view, the
+/// film's orientation, diffuse reflection, shadows or checkers: in every channel of every pixel the
+/// two renderers' means agree but for their noise, with no share of failures allowed, and so does the
+/// mean over the picture.
+#[test]
+fn mitsuba_renders_the_same_pictures() {
+    const PICTURES: u32 = 32;
+    let check = |gpu: &Gpu| -> Result<String> {
+        let mut figures = Vec::new();
+        for name in ["near", "tilted"] {
+            let path = file(name).with_extension("toml");
+            let scene = scene::load(path.to_str().context("a plain path")?)?;
+            let mut settings = Settings::of_scene(SceneRef::new(scene));
+            settings.samples = 2048;
+            let expected = reference(name, settings.estimator.size)?;
+            let mut pixels = vec![[Moments::default(); 3]; expected.len()];
+            for seed in 0..PICTURES {
+                settings.estimator.seed = seed;
+                for (moments, texel) in pixels.iter_mut().zip(film(gpu, &settings)) {
+                    (0..3).for_each(|channel| moments[channel].add(texel[channel].into()));
+                }
+            }
+            let (mut least, mut largest) = (1.0_f64, 0.0_f64);
+            for (number, (pixel, expected)) in pixels.iter().zip(&expected).enumerate() {
+                for (got, expected) in pixel.iter().zip(expected) {
+                    least = least.min(got.difference_p(expected, BOUND));
+                    largest = largest.max((got.mean - expected.mean).abs());
+                    ensure!(
+                        least > sidak(3 * pixels.len()),
+                        "{name}: pixel {number} is {:.5} +- {:.5}, not {:.5} +- {:.5}: p = {least:.1e}",
+                        got.mean,
+                        got.mean_variance().sqrt(),
+                        expected.mean,
+                        expected.mean_variance().sqrt()
+                    );
+                }
+            }
+            let [mean, expected_mean] = [&pixels, &expected].map(|pixels| whole(pixels));
+            let p = mean.difference_p(&expected_mean, BOUND);
+            ensure!(
+                p > SIGNIFICANCE,
+                "{name}: a mean of {}, not {}: p = {p:.1e}",
+                mean.mean,
+                expected_mean.mean
+            );
+            figures.push(format!(
+                "{name}: {} pixels, least p = {least:.1e} of {:.1e} allowed, {largest:.1e} off at most; means {:.5} \
+                 and {:.5}, p = {p:.2}",
+                pixels.len(),
+                sidak(3 * pixels.len()),
+                mean.mean,
+                expected_mean.mean
+            ));
+        }
+        Ok(figures.join("; "))
+    };
+    prove(
+        check,
+        &[
+            "lens_radius_times_1.05",
+            "lens_radius_square_root",
+            "focal_sphere",
+            "focal_distance_times_1.02",
+            "jitter_dropped",
+            "one_pair_for_film_and_lens",
+            "picture_upside_down",
+            "picture_mirrored",
+            "half_a_pixel_off",
+            "field_of_view_by_the_width",
+            "disk_radius_squared",
+            "lambert_without_pi",
+            "cosine_forgotten",
+            "shadows_forgotten",
+            "checker_in_two_dimensions",
+        ],
+    );
+}
+
+/// The mean over a picture, whose pixels and channels are taken for independent.
+fn whole(pixels: &[[Moments; 3]]) -> Moments {
+    let all = || pixels.iter().flatten();
+    let count = all().count() as f64;
+    let mean = all().map(|moments| moments.mean).sum::<f64>() / count;
+    // The channels of a pixel move together: one for all three is the worst case.
+    let variance = 3.0 * all().map(Moments::mean_variance).sum::<f64>() / (count * count);
+    Moments::known(pixels[0][0].count, mean, variance.sqrt())
+}

@@ -1,0 +1,123 @@
+"""Renders the scenes beside this file with Mitsuba 3, for tests/mitsuba.rs to compare with.
+
+    pip install mitsuba && python3 tests/mitsuba/render.py
+
+writes NAME.exr for each NAME.toml: linear R, G, B, the mean of RUNS independent pictures, and
+error.R, error.G, error.B, the standard error of that mean. Takes about a minute on two cores.
+
+The mapping. Lens: `thinlens` has a focal plane, not a sphere, and takes the radius. A matte surface of
+kd = 1 and ka = 0 is `diffuse`; a directional light of some radiance is `directional` of that
+irradiance. The plane is a rectangle that reaches beyond the picture. Its checker is shifted by
+1.87e-4 as thinlens shifts it, and that shift puts the plane itself into the odd layer of cells.
+"""
+
+import pathlib
+import tomllib
+
+import mitsuba
+
+mitsuba.set_variant("scalar_rgb")
+
+RUNS = 64
+SAMPLES = 1024
+HALF_EDGE = 48.0
+SHIFT = 1.87e-4
+
+
+def rgb(value):
+    return {"type": "rgb", "value": value}
+
+
+def diffuse(material):
+    assert material["ka"] == 0 and material["kd"] == 1, "Mitsuba has no ambient light"
+    color = material["color"]
+    if not isinstance(color, dict):
+        return {"type": "diffuse", "reflectance": rgb(color)}
+    # One period of the texture is two cells. u runs along x, v against z.
+    cells = 0.5 / color["size"]
+    transform = mitsuba.ScalarTransform4f()
+    to_uv = transform.translate(
+        [-(HALF_EDGE + SHIFT) * cells, (HALF_EDGE - SHIFT) * cells, 0]
+    ).scale([2 * HALF_EDGE * cells, -2 * HALF_EDGE * cells, 1])
+    board = {
+        "type": "checkerboard",
+        "color0": rgb(color["odd"]),
+        "color1": rgb(color["even"]),
+        "to_uv": to_uv,
+    }
+    return {"type": "diffuse", "reflectance": board}
+
+
+def translate(scene):
+    transform = mitsuba.ScalarTransform4f()
+    camera, (width, height) = scene["camera"], scene["size"]
+    result = {
+        "type": "scene",
+        "integrator": {"type": "direct"},
+        "sensor": {
+            "type": "thinlens",
+            "fov": camera["vfov_degrees"],
+            "fov_axis": "y",
+            "aperture_radius": camera["lens_diameter"] / 2,
+            "focus_distance": camera["focal_distance"],
+            "to_world": transform.look_at(
+                origin=camera["eye"], target=camera["look_at"], up=camera.get("up", [0, 1, 0])
+            ),
+            "film": {
+                "type": "hdrfilm",
+                "width": width,
+                "height": height,
+                "pixel_format": "rgb",
+                "rfilter": {"type": "box"},
+            },
+            "sampler": {"type": "independent", "sample_count": SAMPLES},
+        },
+    }
+    (light,) = scene["directional"]
+    result["light"] = {
+        "type": "directional",
+        "direction": [-x for x in light["direction"]],
+        "irradiance": rgb([light["radiance"] * x for x in light.get("color", [1, 1, 1])]),
+    }
+    (plane,) = scene["plane"]
+    assert plane["point"] == [0, 0, 0] and plane["normal"] == [0, 1, 0]
+    result["plane"] = {
+        "type": "rectangle",
+        "to_world": transform.rotate([1, 0, 0], -90).scale(HALF_EDGE),
+        "bsdf": diffuse(scene["matte"][plane["material"]]),
+    }
+    for number, sphere in enumerate(scene["sphere"]):
+        result[f"sphere{number}"] = {
+            "type": "sphere",
+            "center": sphere["center"],
+            "radius": sphere["radius"],
+            "bsdf": diffuse(scene["matte"][sphere["material"]]),
+        }
+    return mitsuba.load_dict(result)
+
+
+def main():
+    for path in sorted(pathlib.Path(__file__).parent.glob("*.toml")):
+        scene = tomllib.loads(path.read_text())
+        width, height = scene["size"]
+        loaded = translate(scene)
+        runs = [list(mitsuba.render(loaded, seed=seed).array) for seed in range(RUNS)]
+        values = []
+        for pixel in range(width * height):
+            channels = [[run[3 * pixel + channel] for run in runs] for channel in range(3)]
+            means = [sum(channel) / RUNS for channel in channels]
+            squares = [
+                sum((value - mean) ** 2 for value in channel)
+                for channel, mean in zip(channels, means)
+            ]
+            errors = [(square / (RUNS - 1) / RUNS) ** 0.5 for square in squares]
+            values += means + errors
+        tensor = mitsuba.TensorXf(values, (height, width, 6))
+        names = ["R", "G", "B", "error.R", "error.G", "error.B"]
+        bitmap = mitsuba.Bitmap(tensor, mitsuba.Bitmap.PixelFormat.MultiChannel, names)
+        bitmap.write(str(path.with_suffix(".exr")))
+        print(f"{path.stem}: {RUNS} pictures of {SAMPLES} samples a pixel")
+
+
+if __name__ == "__main__":
+    main()
