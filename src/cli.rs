@@ -80,7 +80,10 @@ pub struct RenderArgs {
 /// `thinlens verify`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Without a SCENE, all built-in scenes. 128x96 pixels and 16 samples, unless told otherwise."
+    mut_arg("scene", |scene| scene.help("A built-in scene (see thinlens scenes) or a .toml file [default: every built-in one]")),
+    mut_arg("samples", |samples| samples.help("Antialiasing points per pixel, each with a seed of its own [default: 16]")),
+    mut_arg("size", |size| size.help("Picture size in pixels [default: 128x96]")),
+    mut_arg("exposure", |exposure| exposure.hide(true))
 )]
 pub struct VerifyArgs {
     /// What to render.

@@ -84,6 +84,26 @@ fn an_exr_holds_linear_values_and_counts() {
     }
 }
 
+/// Catches samples left out without a word: quiet or not, their number is said.
+#[test]
+fn samples_that_are_not_finite_are_said() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    std::fs::write(folder.path().join("burning.toml"), common::scenes::BURNING).expect("a scene");
+    let run =
+        run(folder.path(), &["render", "burning.toml", "-o", "out.png", "-q", "-n", "4", "-s", "32x24"]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(run.stderr.contains("of 3072 samples were not finite"), "{}", run.stderr);
+}
+
+/// Catches help that promises the defaults of another command.
+#[test]
+fn verify_has_defaults_of_its_own() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let help = run(folder.path(), &["verify", "--help"]).stdout;
+    assert!(help.contains("every built-in one") && help.contains("128x96"), "{help}");
+    assert!(!help.contains("version-4") && !help.contains("--exposure"), "{help}");
+}
+
 /// Catches figures that are missing or do not fit each other.
 #[test]
 fn stats_say_what_was_done() {

@@ -82,3 +82,26 @@ center = [0.5, 0.95, 0.6]
 radius = 0.15
 material = "wall"
 "#;
+
+/// Two mirrors whose reflections of each other overflow.
+pub const BURNING: &str = r#"
+[camera]
+eye = [0, 0, 0]
+look_at = [0, 0, -1]
+vfov_degrees = 60
+lens_diameter = 0
+focal_distance = 1
+[background]
+color = [1e9, 1e9, 1e9]
+[mirror.burning]
+color = [1e9, 1e9, 1e9]
+kr = 1e9
+[[sphere]]
+center = [-0.6, 0, -3]
+radius = 0.5
+material = "burning"
+[[sphere]]
+center = [0.6, 0, -3]
+radius = 0.5
+material = "burning"
+"#;
