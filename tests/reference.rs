@@ -3,6 +3,7 @@
 mod common;
 
 use common::scene_of;
+use common::scenes::FIXED_POINTS;
 use glam::DVec3;
 use thinlens::reference::film::Film;
 use thinlens::reference::intersect::intersect;
@@ -16,19 +17,7 @@ use thinlens::settings::Settings;
 #[test]
 fn the_disk_map_is_concentric() {
     let close = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).abs() < 1e-12 && (a[1] - b[1]).abs() < 1e-12;
-    let half = 0.5_f64.sqrt();
-    for (square, disk) in [
-        ([0.5, 0.5], [0.0, 0.0]),
-        ([1.0, 0.5], [1.0, 0.0]),
-        ([0.0, 0.5], [-1.0, 0.0]),
-        ([0.5, 1.0], [0.0, 1.0]),
-        ([0.5, 0.0], [0.0, -1.0]),
-        ([1.0, 1.0], [half, half]),
-        ([0.0, 1.0], [-half, half]),
-        ([0.0, 0.0], [-half, -half]),
-        ([1.0, 0.0], [half, -half]),
-        ([0.75, 0.5], [0.5, 0.0]),
-    ] {
+    for (square, disk) in FIXED_POINTS {
         assert!(close(concentric_disk(square), disk), "{square:?} to {:?}", concentric_disk(square));
     }
     let n = 400;

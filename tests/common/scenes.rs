@@ -1,4 +1,20 @@
-//! Scenes that several tests look at.
+//! Scenes, and points, that several tests look at.
+
+use std::f64::consts::FRAC_1_SQRT_2;
+
+/// Points of the unit square, and where Shirley and Chiu's map takes them: centre, axes and corners.
+pub const FIXED_POINTS: [([f64; 2], [f64; 2]); 10] = [
+    ([0.5, 0.5], [0.0, 0.0]),
+    ([1.0, 0.5], [1.0, 0.0]),
+    ([0.0, 0.5], [-1.0, 0.0]),
+    ([0.5, 1.0], [0.0, 1.0]),
+    ([0.5, 0.0], [0.0, -1.0]),
+    ([1.0, 1.0], [FRAC_1_SQRT_2, FRAC_1_SQRT_2]),
+    ([0.0, 1.0], [-FRAC_1_SQRT_2, FRAC_1_SQRT_2]),
+    ([0.0, 0.0], [-FRAC_1_SQRT_2, -FRAC_1_SQRT_2]),
+    ([1.0, 0.0], [FRAC_1_SQRT_2, -FRAC_1_SQRT_2]),
+    ([0.75, 0.5], [0.5, 0.0]),
+];
 
 /// A scene with every kind of shape, material and light, seen from close by.
 pub const EVERYTHING: &str = r#"

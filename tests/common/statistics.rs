@@ -1,5 +1,6 @@
 //! When chance explains a difference, and when it does not.
 
+use anyhow::{Result, ensure};
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal, StudentsT};
 
 /// A test that chance alone turns red this often, whatever the number of things it looks at. The
@@ -81,4 +82,30 @@ impl Moments {
         let freedom = (a + b).powi(2) / (a * a / (self.count - 1.0) + b * b / (other.count - 1.0));
         student_p(difference / (a + b).sqrt(), freedom)
     }
+}
+
+/// Holds every channel of every pixel of some pictures against other pictures of the same scene, by a
+/// test on their means. No share of the pixels may fail.
+pub fn pixels_agree(pixels: &[[Moments; 3]], expected: &[[Moments; 3]], rounding: f64) -> Result<String> {
+    assert_eq!(pixels.len(), expected.len());
+    let (mut least, mut largest) = (1.0_f64, 0.0_f64);
+    for (number, (pixel, expected)) in pixels.iter().zip(expected).enumerate() {
+        for (got, expected) in pixel.iter().zip(expected) {
+            least = least.min(got.difference_p(expected, rounding));
+            largest = largest.max((got.mean - expected.mean).abs());
+            ensure!(
+                least > sidak(3 * pixels.len()),
+                "pixel {number} is {:.5} +- {:.5}, not {:.5} +- {:.5}: p = {least:.1e}",
+                got.mean,
+                got.mean_variance().sqrt(),
+                expected.mean,
+                expected.mean_variance().sqrt()
+            );
+        }
+    }
+    let allowed = sidak(3 * pixels.len());
+    Ok(format!(
+        "{} pixels, least p = {least:.1e} of {allowed:.1e} allowed, {largest:.1e} off at most",
+        pixels.len()
+    ))
 }
