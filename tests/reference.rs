@@ -86,8 +86,13 @@ fn primary_rays_meet_in_the_focal_plane() {
             let y = 15.0 - k * relative.dot(frame.v()) / 6.0;
             let expected = [0, 1].map(|axis| f64::from(pixel[axis]) + 0.5 + sample.offset[axis]);
             assert!((x - expected[0]).abs() < 1e-9 && (y - expected[1]).abs() < 1e-9, "{pixel:?}, {index}");
-            let lens_point = sample.ray.origin - eye;
-            assert!(lens_point.length() <= 0.4 + 1e-12 && lens_point.dot(frame.w()).abs() < 1e-12);
+            // Two values for the film, two others for the lens.
+            let xi = sample_values(estimator.seed, pixel, index, 0);
+            assert_eq!(sample.offset, [xi[0] - 0.5, xi[1] - 0.5]);
+            let [a, b] =
+                concentric_disk([xi[2], xi[3]]).map(|value| value * f64::from(estimator.lens.diameter) / 2.0);
+            let lens_point = eye + a * frame.u() + b * frame.v();
+            assert!((sample.ray.origin - lens_point).length() < 1e-12, "{pixel:?}, {index}");
         }
     }
 }
@@ -111,6 +116,9 @@ fn shading_has_the_values_of_its_formulas() {
         (format!("{slanted}{matte}{blocker}"), DVec3::ZERO),
         (format!("{slanted}shadows = false\n{matte}{blocker}"), lit(0.5_f64.sqrt())),
         (format!("[[point]]\nposition = [3, 3, 0]\nradiance = 3\n{matte}"), lit(0.5_f64.sqrt())),
+        // What lies beyond the lamp throws no shadow, what lies before it does.
+        (format!("[[point]]\nposition = [1, 1, 0]\nradiance = 3\n{matte}{blocker}"), lit(0.5_f64.sqrt())),
+        (format!("[[point]]\nposition = [5, 5, 0]\nradiance = 3\n{matte}{blocker}"), DVec3::ZERO),
         ("[emissive.m]\nradiance = 4\ncolor = [0.5, 1, 0]\n".into(), DVec3::new(2.0, 4.0, 0.0)),
         (
             "[background]\nhorizon = [0, 0, 0]\nzenith = [1, 1, 1]\n[mirror.m]\nkr = 0.5\ncolor = [1, 0.5, 0]\n".into(),
@@ -202,13 +210,15 @@ fn pictures_have_the_values_of_their_formulas() {
     let gloss = "[[directional]]\ndirection = [1, 1, 0]\nradiance = 2\n[phong.m]\nka = 0\nkd = 0\nks = 0.25\n\
                  exponent = 3\ncolor = [1, 0, 0]\n\
                  [[plane]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\nmaterial = \"m\"\n";
-    // The mirrored light leaves along (-1, 1, 0) / sqrt(2); straight up is 45 degrees off.
-    let highlight = 0.25 * 0.5_f64.sqrt().powi(3) * 2.0 * 0.5_f64.sqrt();
+    // The mirrored light leaves along (-1, 1, 0) / sqrt(2), and the eye is a little beside that.
+    let highlight = 0.25 * (1.4 * 0.5_f64.sqrt()).powi(3) * 2.0 * 0.5_f64.sqrt();
+    let aside = (DVec3::new(-6.0, 8.0, 0.0), DVec3::new(0.6, -0.8, 0.0));
     let all = DVec3::splat;
     for (scene, (origin, direction), bounces, expected) in [
         (ground, down(0.5, 0.5), 0, all(1.0)),
         (ground, down(2.5, 0.5), 0, all(0.0)),
         (ground, down(2.5, 3.5), 0, all(1.0)),
+        (&ground.replace("[0, 1, 0]\nnormal", "[0, 3, 0]\nnormal"), down(2.5, 3.5), 0, all(0.0)),
         (ground, down(-0.5, 0.5), 0, all(0.0)),
         (ground, down(-0.5, -3.0), 0, all(0.0)),
         (ground, down(0.0001, 0.5), 0, all(0.0)),
@@ -219,7 +229,7 @@ fn pictures_have_the_values_of_their_formulas() {
         (mirrors, up, 4, all(0.0)),
         (mirrors, up, 5, all(0.5)),
         (mirrors, up, 64, all(0.5)),
-        (gloss, down(0.0, 0.0), 0, all(highlight)),
+        (gloss, aside, 0, all(highlight)),
     ] {
         let scene = scene_of(&format!("{CAMERA}{scene}"));
         let got = radiance(&scene, Ray { origin, direction }, bounces);
@@ -256,4 +266,5 @@ fn srgb_is_continuous_and_keeps_black_and_white() {
     assert!((tone::srgb(1.0) - 1.0).abs() < 1e-12 && tone::srgb(2.0) == tone::srgb(1.0));
     assert!((tone::srgb(0.003_130_8) - tone::srgb(0.003_130_9)).abs() < 1e-5);
     assert!((tone::srgb(0.214_041_14) - 0.5).abs() < 1e-6);
+    assert!((tone::srgb(0.01) - 0.099_852_8).abs() < 1e-6 && (tone::srgb(0.002) - 0.025_84).abs() < 1e-6);
 }
