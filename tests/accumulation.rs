@@ -9,11 +9,11 @@ use common::{Gpu, bits, film, probe, prove, scene_of, small};
 use glam::DVec3;
 use std::sync::Arc;
 use thinlens::gpu_types::{Camera, Counters, SceneData, TracePush};
-use thinlens::passes::SceneBuffers;
+use thinlens::passes::{SceneBuffers, Trace};
 use thinlens::reference::{self, sampler};
 use thinlens::renderer::schedule::Pass;
 use thinlens::settings::Settings;
-use thinlens::vulkan::{Binding, BindingSet, Buffer, ComputePipeline, Residence};
+use thinlens::vulkan::{Buffer, Commands, Image, Residence};
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
@@ -30,18 +30,18 @@ struct Merged {
     pad0: [u32; 3],
 }
 
-/// Every sample of a picture as the device traces it: `samples` times r, g, b of each pixel, and 1,
-/// or 0 where it was not finite.
+/// Every sample of a picture as the trace pass traces it: `samples` times r, g, b of each pixel, and
+/// 1, or 0 where it was not finite.
 fn record(gpu: &Gpu, settings: &Settings) -> Result<Vec<Vec<[f32; 4]>>> {
     let Settings { estimator, samples, .. } = settings;
     let device = gpu.device();
     let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene))?;
-    let pipeline = ComputePipeline::new(device, gpu.shader("batch"), scene.constants())?;
+    let trace = Trace::new(device, gpu.shader("trace"), &scene)?;
     let counters = Buffer::new(device, "counters", size_of::<Counters>() as u64, Residence::Device)?;
-    let bytes = (estimator.size[0] * estimator.size[1]) as usize * size_of::<[f32; 4]>();
-    let output = Arc::new(Buffer::new(device, "samples", bytes as u64, Residence::Host)?);
-    let front = [Binding::Buffer(Arc::clone(&output)), Binding::Buffer(Arc::new(counters))];
-    let bindings = BindingSet::new(&pipeline, &scene.bindings(front))?;
+    let batch = Arc::new(Image::rgba32f(device, "batch", estimator.size)?);
+    let read = Buffer::new(device, "samples", batch.byte_len(), Residence::Host)?;
+    let bindings = trace.bind(&scene, &batch, &Arc::new(counters))?;
+    let mut commands = Commands::new(device)?;
     let one = |first_sample| {
         let push = TracePush {
             camera: Camera::new(estimator),
@@ -51,10 +51,17 @@ fn record(gpu: &Gpu, settings: &Settings) -> Result<Vec<Vec<[f32; 4]>>> {
             first_sample,
             sample_count: 1,
         };
-        probe::run(gpu, &pipeline, &bindings, bytemuck::bytes_of(&push), estimator.size);
-        bytemuck::allocation::pod_collect_to_vec(&output.bytes()[..bytes])
+        let mut recording = commands.begin()?;
+        recording.clear(&batch);
+        trace.record(&mut recording, &bindings, &push, estimator.size);
+        recording.barrier();
+        recording.copy_image(&batch, &read);
+        recording.submit()?;
+        commands.wait()?;
+        let bytes = usize::try_from(batch.byte_len())?;
+        Ok(bytemuck::allocation::pod_collect_to_vec(&read.bytes()[..bytes]))
     };
-    Ok((0..*samples).map(one).collect())
+    (0..*samples).map(one).collect()
 }
 
 /// Catches a film that is not the running mean of the samples that landed: recorded samples are

@@ -84,7 +84,7 @@ fn an_exr_holds_linear_values_and_counts() {
     }
 }
 
-/// Catches samples left out without a word: quiet or not, their number is said.
+/// Catches samples left out without a word: even a quiet run says their number.
 #[test]
 fn samples_that_are_not_finite_are_said() {
     let folder = tempfile::tempdir().expect("a temporary folder");

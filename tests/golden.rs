@@ -7,13 +7,12 @@
 mod common;
 
 use anyhow::{Context, Result, ensure};
-use common::{Gpu, decode_png, probe, prove, small};
+use common::{Gpu, decode_png, probe, prove};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use thinlens::gpu_types::ResolvePush;
 use thinlens::output::{PendingFile, write_png};
 use thinlens::passes::Resolve;
-use thinlens::reference::Reference;
 use thinlens::vulkan::{Binding, BindingSet, Buffer, Commands, ComputePipeline, Image, Residence};
 
 const BLESS: &str = "THINLENS_BLESS";
@@ -105,10 +104,6 @@ fn cases() -> Vec<Case> {
             move |x, y| if x % stride == site && y % stride == site { bands(x, y) } else { [0.0; 4] },
         )
     };
-    let mut settings = small("version-4");
-    settings.estimator.size = [112, 63];
-    let scene = Reference::new(&settings.estimator).render(24);
-    let scene = scene.iter().map(|texel| texel.map(|value| value as f32)).collect();
     vec![
         case("bands", extent, film(extent, bands), 1, 0.0),
         case("bands-brighter", extent, film(extent, bands), 1, 1.5),
@@ -117,7 +112,6 @@ fn cases() -> Vec<Case> {
         case("islands", extent, islands, 1, 0.0),
         case("preview-of-a-quarter", extent, lattice(2, 0), 2, 0.0),
         case("preview-of-a-sixteenth", extent, lattice(4, 2), 4, 0.0),
-        case("version-4", settings.estimator.size, scene, 1, 0.0),
     ]
 }
 

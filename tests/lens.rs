@@ -223,10 +223,18 @@ fn a_pinhole_has_one_ray_for_a_film_position() {
                 lens_points().into_iter().map(move |disk| Place { pixel, offset, disk })
             })
             .collect();
-        let rays = [0.37, 10.0, 1e6]
-            .map(|focal_distance| primary_rays(gpu, &slanted([33, 21], 65.0, 0.0, focal_distance), &places));
-        ensure!(rays[0] == rays[1] && rays[0] == rays[2], "the focal distance changes the pinhole's rays");
-        ensure!(rays[0].iter().all(|(origin, _)| *origin == frame().0), "a ray that starts beside the eye");
+        let rays = [0.37, 10.0, 1e6].map(|focal_distance| {
+            let push = CameraPush::new(&slanted([33, 21], 65.0, 0.0, focal_distance));
+            probe::<_, ProbedRay>(gpu, "camera", None, bytemuck::bytes_of(&push), &places)
+        });
+        let bits = rays.each_ref().map(|rays| {
+            rays.iter()
+                .map(|ray| [ray.origin, ray.direction].map(|v| v.map(f32::to_bits)))
+                .collect::<Vec<_>>()
+        });
+        ensure!(bits[0] == bits[1] && bits[0] == bits[2], "the focal distance changes the pinhole's rays");
+        let eye = frame().0.as_vec3().to_array();
+        ensure!(rays[0].iter().all(|ray| ray.origin == eye), "a ray that starts beside the eye");
         Ok(format!("{} rays, the same bits at three focal distances", places.len()))
     };
     prove(check, &["focal_point_leaks_into_the_pinhole"]);

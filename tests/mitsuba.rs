@@ -4,10 +4,10 @@
 
 mod common;
 
-use anyhow::{Context, Result, ensure};
-use common::statistics::{Moments, SIGNIFICANCE, pixels_agree};
-use common::{Gpu, film, prove};
-use exr::prelude::{ReadChannels, ReadLayers, read};
+use anyhow::{Context, Result, bail, ensure};
+use common::statistics::{Moments, Spread};
+use common::{Gpu, pictures, prove};
+use exr::prelude::{AttributeValue, ReadChannels, ReadLayers, Text, read};
 use std::path::{Path, PathBuf};
 use thinlens::scene::{self, SceneRef};
 use thinlens::settings::Settings;
@@ -15,15 +15,12 @@ use thinlens::settings::Settings;
 /// What the two renderers may differ by besides noise, as a share of a value: both compute in f32.
 const BOUND: f64 = 1e-4;
 
-/// How many pictures Mitsuba's means are of: RUNS of render.py.
-const RUNS: f64 = 64.0;
-
 fn file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join("mitsuba").join(name)
 }
 
 /// Mitsuba's mean of each channel of each pixel, with its spread.
-fn reference(name: &str, size: [u32; 2]) -> Result<Vec<[Moments; 3]>> {
+fn reference(name: &str, size: [u32; 2]) -> Result<Spread> {
     let path = file(name).with_extension("exr");
     let image = read().no_deep_data().largest_resolution_level().all_channels().first_valid_layer();
     let image = image.all_attributes().from_file(&path);
@@ -33,6 +30,10 @@ fn reference(name: &str, size: [u32; 2]) -> Result<Vec<[Moments; 3]>> {
         "{name}: {:?} pixels",
         layer.size
     );
+    let runs = match layer.attributes.other.get(&Text::from("runs")) {
+        Some(AttributeValue::I32(runs)) => f64::from(*runs),
+        other => bail!("{} says {other:?} for its number of pictures", path.display()),
+    };
     let channel = |name: &str| -> Result<Vec<f64>> {
         let found = layer.channel_data.list.iter().find(|channel| channel.name.eq(name));
         let found = found.with_context(|| format!("{} has no channel {name}", path.display()))?;
@@ -42,10 +43,10 @@ fn reference(name: &str, size: [u32; 2]) -> Result<Vec<[Moments; 3]>> {
     for (number, name) in ["R", "G", "B"].into_iter().enumerate() {
         let spread = channel(name)?.into_iter().zip(channel(&format!("error.{name}"))?);
         for (pixel, (mean, error)) in pixels.iter_mut().zip(spread) {
-            pixel[number] = Moments::known(RUNS, mean, error);
+            pixel[number] = Moments::known(runs, mean, error);
         }
     }
-    Ok(pixels)
+    Ok(Spread::of_pixels(pixels))
 }
 
 /// Catches a mistake that the shaders and the oracle share, of the lens, the field of view, the
@@ -54,7 +55,6 @@ fn reference(name: &str, size: [u32; 2]) -> Result<Vec<[Moments; 3]>> {
 /// mean over the picture.
 #[test]
 fn mitsuba_renders_the_same_pictures() {
-    const PICTURES: u32 = 32;
     let check = |gpu: &Gpu| -> Result<String> {
         let mut figures = Vec::new();
         for name in ["near", "tilted"] {
@@ -63,26 +63,8 @@ fn mitsuba_renders_the_same_pictures() {
             let mut settings = Settings::of_scene(SceneRef::new(scene));
             settings.samples = 2048;
             let expected = reference(name, settings.estimator.size)?;
-            let mut pixels = vec![[Moments::default(); 3]; expected.len()];
-            for seed in 0..PICTURES {
-                settings.estimator.seed = seed;
-                for (moments, texel) in pixels.iter_mut().zip(film(gpu, &settings)) {
-                    (0..3).for_each(|channel| moments[channel].add(texel[channel].into()));
-                }
-            }
-            let agreement = pixels_agree(&pixels, &expected, BOUND)?;
-            let [mean, expected_mean] = [&pixels, &expected].map(|pixels| whole(pixels));
-            let p = mean.difference_p(&expected_mean, BOUND);
-            ensure!(
-                p > SIGNIFICANCE,
-                "{name}: a mean of {}, not {}: p = {p:.1e}",
-                mean.mean,
-                expected_mean.mean
-            );
-            figures.push(format!(
-                "{name}: {agreement}; means {:.5} and {:.5}, p = {p:.2}",
-                mean.mean, expected_mean.mean
-            ));
+            let device = Spread::of(pictures(gpu, &settings, 32)?);
+            figures.push(format!("{name}: {}", device.agree(&expected, BOUND)?));
         }
         Ok(figures.join("; "))
     };
@@ -106,14 +88,4 @@ fn mitsuba_renders_the_same_pictures() {
             "checker_in_two_dimensions",
         ],
     );
-}
-
-/// The mean over a picture, whose pixels and channels are taken for independent.
-fn whole(pixels: &[[Moments; 3]]) -> Moments {
-    let all = || pixels.iter().flatten();
-    let count = all().count() as f64;
-    let mean = all().map(|moments| moments.mean).sum::<f64>() / count;
-    // The channels of a pixel move together: one for all three is the worst case.
-    let variance = 3.0 * all().map(Moments::mean_variance).sum::<f64>() / (count * count);
-    Moments::known(pixels[0][0].count, mean, variance.sqrt())
 }

@@ -156,7 +156,7 @@ fn profile(film: &[[f32; 4]], width: u32, columns: (u32, u32), rows: (u32, u32))
     (columns.0..columns.1).map(column).collect()
 }
 
-/// Catches what the lamp catches, on a step edge in front of and behind the focal plane: upright and
+/// Catches a wrong lens radius or focal distance, a focal sphere, and a disk filled unevenly, on a step edge in front of and behind the focal plane: upright and
 /// lying, through the axis and in the corner.
 #[test]
 fn an_edge_out_of_focus_spreads_over_its_circle_of_confusion() {
@@ -176,10 +176,10 @@ fn an_edge_out_of_focus_spreads_over_its_circle_of_confusion() {
                     let mut film = film(gpu, &settings);
                     let [width, height] = SIZE;
                     let extent = if lying {
-                        let at = |x: u32, y: u32| film[((height - 1 - x) * width + y) as usize];
+                        let at =
+                            |along: u32, across: u32| film[((height - 1 - across) * width + along) as usize];
                         film = (0..width)
-                            .flat_map(|y| (0..height).map(move |x| (x, y)))
-                            .map(|(x, y)| at(x, y))
+                            .flat_map(|along| (0..height).map(move |across| at(along, across)))
                             .collect();
                         height
                     } else {

@@ -199,7 +199,7 @@ fn pictures_have_the_values_of_their_formulas() {
     let down = |x: f64, z: f64| (DVec3::new(x, 5.0, z), -DVec3::Y);
     let sky = "[background]\nhorizon = [1, 0, 0]\nzenith = [0, 0, 1]\n";
     let slope = DVec3::new(3.0, 4.0, 0.0) / 5.0;
-    // Two mirrors face each other above a lamp that both show; each reflection keeps half.
+    // Two mirrors face each other below a lamp that both show; each reflection keeps half.
     let mirrors = "[background]\ncolor = [1, 1, 1]\n[mirror.m]\nkr = 0.5\ncolor = [1, 1, 1]\nks = 0\n\
                    [[plane]]\npoint = [-1, 0, 0]\nnormal = [1, 0, 0]\nmaterial = \"m\"\n\
                    [[plane]]\npoint = [1, 0, 0]\nnormal = [1, 0, 0]\nmaterial = \"m\"\n\
@@ -240,7 +240,7 @@ fn pictures_have_the_values_of_their_formulas() {
     }
 }
 
-/// Catches another mean, a landing in the wrong pixel, and a sample lost beside the film that is not.
+/// Catches another mean, a landing in the wrong pixel, and one beside the film that is kept.
 #[test]
 fn the_film_averages_what_lands() {
     let mut film = Film::new([2, 1]);

@@ -84,19 +84,11 @@ fn rays(extent: f64, count: u32) -> Vec<Question> {
         })
         .collect();
     for index in 0..count / 8 {
-        for axis in DVec3::AXES.into_iter().chain(DVec3::NEG_AXES) {
+        for axis in DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]) {
             all.push(Question::new(somewhere(index, 4), axis));
         }
     }
     all
-}
-
-trait NegatedAxes {
-    const NEG_AXES: [DVec3; 3];
-}
-
-impl NegatedAxes for DVec3 {
-    const NEG_AXES: [DVec3; 3] = [DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
 }
 
 const CAMERA: &str = "[camera]\neye = [0, 0, 9]\nlook_at = [0, 0, 0]\nvfov_degrees = 40\nlens_diameter = 0\n\
@@ -224,7 +216,7 @@ fn only_what_lies_nearer_than_the_limit_occludes() {
                 .filter(|of_hit| [0, 1, 2].map(|i| of_hit[i].occluded) != [0, 1, 1])
                 .count();
             ensure!(
-                wrong * 1000 <= answers.len(),
+                wrong * 1000 <= answers.len() / 3,
                 "{name}: {wrong} of {} hits occlude wrongly",
                 answers.len() / 3
             );
@@ -233,15 +225,6 @@ fn only_what_lies_nearer_than_the_limit_occludes() {
         Ok(format!("{count} hits, each before, behind and far below the limit"))
     };
     prove(check, &["shadow_limit_ignored", "shadow_limit_squared", "planes_cast_no_shadow"]);
-}
-
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable)]
-struct ShadingRay {
-    origin: [f32; 3],
-    pad0: u32,
-    direction: [f32; 3],
-    pad1: u32,
 }
 
 #[repr(C)]
@@ -261,23 +244,16 @@ fn rays_show_what_the_oracles_show() {
         for (name, toml, extent) in [("everything", EVERYTHING, 3.0), ("room", ROOM, 0.95)] {
             let scene = scene_of(toml);
             for max_bounces in [0_u32, 1, 4] {
-                let rays: Vec<_> = rays(extent, 8192)
-                    .iter()
-                    .map(|ray| ShadingRay { origin: ray.origin, pad0: 0, direction: ray.direction, pad1: 0 })
-                    .collect();
+                let rays = rays(extent, 8192);
                 let shown: Vec<Shown> =
                     probe(gpu, "radiance", Some(&scene), bytemuck::bytes_of(&max_bounces), &rays);
                 let mut off = 0;
                 for (ray, shown) in rays.iter().zip(shown) {
-                    let ray = Question::new(
-                        Vec3::from_array(ray.origin).as_dvec3(),
-                        Vec3::from_array(ray.direction).as_dvec3(),
-                    )
-                    .ray();
-                    let expected = radiance(&scene, ray, max_bounces);
-                    let error = (Vec3::from_array(shown.radiance).as_dvec3() - expected).abs().max_element()
-                        / expected.max_element().max(1.0);
+                    let got = Vec3::from_array(shown.radiance).as_dvec3();
+                    ensure!(got.is_finite(), "{name}: {ray:?} shows {got}");
                     ensure!(shown.rays >= 1, "a ray that is not counted");
+                    let expected = radiance(&scene, ray.ray(), max_bounces);
+                    let error = (got - expected).abs().max_element() / expected.max_element().max(1.0);
                     if error > 2e-4 {
                         off += 1;
                     } else {
@@ -301,7 +277,7 @@ fn rays_show_what_the_oracles_show() {
             "lambert_without_pi",
             "cosine_forgotten",
             "checker_in_two_dimensions",
-            "checker_without_its_shift",
+            "checker_shifted_the_other_way",
             "phong_exponent_halved",
             "highlight_around_the_normal",
             "shadow_limit_ignored",

@@ -53,8 +53,13 @@ impl<'a> Reference<'a> {
         let xi = sampler::sample_values(self.estimator.seed, pixel, index, 0);
         let jitter = f64::from(self.estimator.jitter);
         let offset = [(xi[0] - 0.5) * jitter, (xi[1] - 0.5) * jitter];
-        let lens = sampler::concentric_disk([xi[2], xi[3]]);
-        let ray = self.projection.primary_ray(pixel, offset, lens);
+        self.trace(pixel, offset, sampler::concentric_disk([xi[2], xi[3]]))
+    }
+
+    /// The sample of a film position, `offset` pixels from this pixel's centre, and a point of the
+    /// unit disk on the lens.
+    pub fn trace(&self, pixel: [u32; 2], offset: [f64; 2], disk: [f64; 2]) -> Sample {
+        let ray = self.projection.primary_ray(pixel, offset, disk);
         let scene = &*self.estimator.scene;
         let radiance = shading::radiance(scene, ray, self.estimator.max_bounces);
         Sample { ray, offset, radiance }

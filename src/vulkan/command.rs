@@ -125,7 +125,7 @@ impl Recording<'_> {
         let groups = pipeline.workgroups(extent);
         self.begin_label(pipeline.name());
         // SAFETY: recording is under way; the set was made for this pipeline's layout; push covers
-        // the pipeline's range, which `push_constants` asserts.
+        // the pipeline's range, which `assert_push_size` asserts.
         unsafe {
             device.raw.cmd_bind_pipeline(buffer, vk::PipelineBindPoint::COMPUTE, pipeline.raw);
             device.raw.cmd_bind_descriptor_sets(

@@ -3,8 +3,8 @@
 use anyhow::{Result, ensure};
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal, StudentsT};
 
-/// A test that chance alone turns red this often, whatever the number of things it looks at. The
-/// seeds are fixed, so it is red always or never.
+/// How often chance alone turns a comparison red, whatever the number of things it looks at. The seeds
+/// are fixed, so on one device it is red always or never.
 pub const SIGNIFICANCE: f64 = 0.01;
 
 /// How unlikely one of `tests` independent results must be, so that the unlikeliest of them is below
@@ -84,28 +84,65 @@ impl Moments {
     }
 }
 
-/// Holds every channel of every pixel of some pictures against other pictures of the same scene, by a
-/// test on their means. No share of the pixels may fail.
-pub fn pixels_agree(pixels: &[[Moments; 3]], expected: &[[Moments; 3]], rounding: f64) -> Result<String> {
-    assert_eq!(pixels.len(), expected.len());
-    let (mut least, mut largest) = (1.0_f64, 0.0_f64);
-    for (number, (pixel, expected)) in pixels.iter().zip(expected).enumerate() {
-        for (got, expected) in pixel.iter().zip(expected) {
-            least = least.min(got.difference_p(expected, rounding));
-            largest = largest.max((got.mean - expected.mean).abs());
-            ensure!(
-                least > sidak(3 * pixels.len()),
-                "pixel {number} is {:.5} +- {:.5}, not {:.5} +- {:.5}: p = {least:.1e}",
-                got.mean,
-                got.mean_variance().sqrt(),
-                expected.mean,
-                expected.mean_variance().sqrt()
-            );
+/// Pictures of one scene with different seeds: of each pixel's channels, and of the whole picture's
+/// mean, how the pictures' values are spread.
+pub struct Spread {
+    pub pixels: Vec<[Moments; 3]>,
+    pub mean: Moments,
+}
+
+impl Spread {
+    pub fn of(pictures: impl IntoIterator<Item = Vec<[f64; 3]>>) -> Self {
+        let mut spread = Self { pixels: Vec::new(), mean: Moments::default() };
+        for picture in pictures {
+            spread.pixels.resize(picture.len(), Default::default());
+            for (moments, pixel) in spread.pixels.iter_mut().zip(&picture) {
+                (0..3).for_each(|channel| moments[channel].add(pixel[channel]));
+            }
+            spread.mean.add(picture.iter().flatten().sum::<f64>() / (3 * picture.len()) as f64);
         }
+        spread
     }
-    let allowed = sidak(3 * pixels.len());
-    Ok(format!(
-        "{} pixels, least p = {least:.1e} of {allowed:.1e} allowed, {largest:.1e} off at most",
-        pixels.len()
-    ))
+
+    /// Of the pixels alone, where the pictures are not at hand. The error of their mean is an upper
+    /// bound: pixels are independent, but a pixel's channels move together.
+    pub fn of_pixels(pixels: Vec<[Moments; 3]>) -> Self {
+        let all = || pixels.iter().flatten();
+        let count = all().count() as f64;
+        let mean = all().map(|moments| moments.mean).sum::<f64>() / count;
+        let variance = 3.0 * all().map(Moments::mean_variance).sum::<f64>() / (count * count);
+        Self { mean: Moments::known(pixels[0][0].count, mean, variance.sqrt()), pixels }
+    }
+
+    /// Holds these pictures against other ones of the same scene, by tests on every channel of every
+    /// pixel's mean, and on the mean of all. No share of the pixels may fail.
+    pub fn agree(&self, other: &Self, rounding: f64) -> Result<String> {
+        ensure!(self.pixels.len() == other.pixels.len(), "pictures of another size");
+        let allowed = sidak(3 * self.pixels.len());
+        let (mut least, mut largest) = (1.0_f64, 0.0_f64);
+        for (number, (pixel, expected)) in self.pixels.iter().zip(&other.pixels).enumerate() {
+            for (got, expected) in pixel.iter().zip(expected) {
+                ensure!(got.mean.is_finite(), "pixel {number} is {}", got.mean);
+                least = least.min(got.difference_p(expected, rounding));
+                largest = largest.max((got.mean - expected.mean).abs());
+                ensure!(
+                    least > allowed,
+                    "pixel {number} is {:.5} +- {:.5}, not {:.5} +- {:.5}: p = {least:.1e}",
+                    got.mean,
+                    got.mean_variance().sqrt(),
+                    expected.mean,
+                    expected.mean_variance().sqrt()
+                );
+            }
+        }
+        let p = self.mean.difference_p(&other.mean, rounding);
+        ensure!(p > SIGNIFICANCE, "a mean of {}, not {}: p = {p:.1e}", self.mean.mean, other.mean.mean);
+        Ok(format!(
+            "{} pixels, least p = {least:.1e} of {allowed:.1e} allowed, {largest:.1e} off at most; means {:.5} and \
+             {:.5}, p = {p:.2}",
+            self.pixels.len(),
+            self.mean.mean,
+            other.mean.mean
+        ))
+    }
 }

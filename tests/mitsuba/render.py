@@ -1,14 +1,15 @@
 """Renders the scenes beside this file with Mitsuba 3, for tests/mitsuba.rs to compare with.
 
-    pip install mitsuba && python3 tests/mitsuba/render.py
+    pip install mitsuba==3.9.1 && python3 tests/mitsuba/render.py
 
 writes NAME.exr for each NAME.toml: linear R, G, B, the mean of RUNS independent pictures, and
-error.R, error.G, error.B, the standard error of that mean. Takes about a minute on two cores.
+error.R, error.G, error.B, the standard error of that mean; RUNS itself is the attribute "runs".
+Needs Python 3.11 for its TOML parser, and takes about a minute on two cores.
 
-The mapping. Lens: `thinlens` has a focal plane, not a sphere, and takes the radius. A matte surface of
+The mapping. Mitsuba's sensor `thinlens` has a focal plane, not a sphere, and takes the radius. A matte surface of
 kd = 1 and ka = 0 is `diffuse`; a directional light of some radiance is `directional` of that
 irradiance. The plane is a rectangle that reaches beyond the picture. Its checker is shifted by
-1.87e-4 as thinlens shifts it, and that shift puts the plane itself into the odd layer of cells.
+1.87e-4 as this program shifts it, and that shift puts the plane itself into the odd layer of cells.
 """
 
 import pathlib
@@ -115,6 +116,7 @@ def main():
         tensor = mitsuba.TensorXf(values, (height, width, 6))
         names = ["R", "G", "B", "error.R", "error.G", "error.B"]
         bitmap = mitsuba.Bitmap(tensor, mitsuba.Bitmap.PixelFormat.MultiChannel, names)
+        bitmap.metadata()["runs"] = RUNS
         bitmap.write(str(path.with_suffix(".exr")))
         print(f"{path.stem}: {RUNS} pictures of {SAMPLES} samples a pixel")
 

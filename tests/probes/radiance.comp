@@ -10,6 +10,7 @@ layout(local_size_x = 64) in;
 struct In {
     vec3 origin;
     vec3 direction;
+    float limit; // of no use here
 };
 
 struct Out {
