@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 use thinlens::error::Result;
-use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush};
+use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush, sampler_constant};
 use thinlens::passes::{Accumulate, SceneBuffers, Trace};
 use thinlens::renderer::schedule::Pass;
 use thinlens::scene::{self, SceneRef};
@@ -43,15 +43,18 @@ fn measure(device: &Arc<Device>, name: &str) -> Result<()> {
     let mut settings = Settings::of_scene(SceneRef::new(scene::load(name)?));
     settings.estimator.size = SIZE;
     let estimator = &settings.estimator;
+    let sampler = sampler_constant(estimator.sampler);
     let batch = Arc::new(Image::rgba32f(device, "batch", SIZE)?);
     let film = Arc::new(Image::rgba32f(device, "film", SIZE)?);
     let counters =
         Arc::new(Buffer::new(device, "counters", size_of::<Counters>() as u64, Residence::Device)?);
     let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene))?;
-    let (trace, accumulate) =
-        (Trace::new(device, Trace::SHADER, &scene)?, Accumulate::new(device, Accumulate::SHADER)?);
+    let (trace, accumulate) = (
+        Trace::new(device, Trace::SHADER, sampler, &scene)?,
+        Accumulate::new(device, Accumulate::SHADER, sampler)?,
+    );
     let (traced, accumulated) = (trace.bind(&scene, &batch, &counters)?, accumulate.bind(&batch, &film)?);
-    let fused = ComputePipeline::new(device, FUSED, scene.constants())?;
+    let fused = ComputePipeline::new(device, FUSED, &scene.constants(sampler))?;
     let front = [Binding::Image(Arc::clone(&film)), Binding::Buffer(Arc::clone(&counters))];
     let fused_bindings = BindingSet::new(&fused, &scene.bindings(front))?;
 

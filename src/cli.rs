@@ -2,8 +2,8 @@
 
 use crate::error::Result;
 use crate::scene::{self, BUILTINS, SceneRef};
-use crate::settings::{DEFAULT_SAMPLES, DeviceChoice, Settings};
-use clap::{Args, Parser, Subcommand};
+use crate::settings::{DEFAULT_SAMPLES, DeviceChoice, Sampler, Settings};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
 /// Samples per pixel that the viewer goes for, unless another number is asked for.
@@ -129,6 +129,9 @@ pub struct SettingsArgs {
     /// How many mirror reflections to follow, up to 64 [default: the scene's]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     max_bounces: Option<u32>,
+    /// How the points are chosen: sobol keeps a pixel's points apart, random does not [default: sobol]
+    #[arg(long, value_enum, hide_possible_values = true)]
+    sampler: Option<SamplerArg>,
     /// Chooses other random points [default: 0]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     seed: Option<u32>,
@@ -136,6 +139,22 @@ pub struct SettingsArgs {
     /// [default: 0]
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true)]
     exposure: Option<f32>,
+}
+
+/// How sample values are made.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum SamplerArg {
+    Sobol,
+    Random,
+}
+
+impl SamplerArg {
+    fn plain(self) -> Sampler {
+        match self {
+            Self::Sobol => Sampler::Sobol,
+            Self::Random => Sampler::Random,
+        }
+    }
 }
 
 impl DeviceArgs {
@@ -195,6 +214,7 @@ impl SettingsArgs {
         estimator.lens.focal_distance = self.focal_distance.unwrap_or(estimator.lens.focal_distance);
         estimator.jitter = self.jitter.unwrap_or(estimator.jitter);
         estimator.max_bounces = self.max_bounces.unwrap_or(estimator.max_bounces);
+        estimator.sampler = self.sampler.map_or(estimator.sampler, SamplerArg::plain);
         estimator.seed = self.seed.unwrap_or(estimator.seed);
         settings.view.exposure_stops = self.exposure.unwrap_or(settings.view.exposure_stops);
         settings.samples = self.samples.unwrap_or(samples);

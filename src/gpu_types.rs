@@ -3,7 +3,7 @@
 #![allow(missing_docs, reason = "the fields are documented where the shaders declare them")]
 
 use crate::scene::{self, LightKind, Scene};
-use crate::settings::Estimator;
+use crate::settings::{Estimator, Sampler};
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
@@ -145,6 +145,14 @@ pub struct ResolvePush {
     pub extent: [u32; 2],
     pub preview_stride: u32,
     pub exposure: f32,
+}
+
+/// `SAMPLER` of sampling.glsl, the specialization constant 0.
+pub fn sampler_constant(sampler: Sampler) -> u32 {
+    match sampler {
+        Sampler::Random => 0,
+        Sampler::Sobol => 1,
+    }
 }
 
 impl Counters {

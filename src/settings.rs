@@ -49,8 +49,21 @@ pub struct Estimator {
     pub jitter: f32,
     /// How many reflections are followed.
     pub max_bounces: u32,
+    /// How sample values are made.
+    pub sampler: Sampler,
     /// Chooses the sample values.
     pub seed: u32,
+}
+
+/// How sample values are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Sampler {
+    /// Independent random numbers: error falls with the square root of their number.
+    Random,
+    /// The Sobol sequence, Owen-scrambled, in pairs of dimensions: a pixel's samples keep apart from
+    /// each other on the film and on the lens. B. Burley, JCGT 9(4), 2020.
+    #[default]
+    Sobol,
 }
 
 /// Whatever changes only how the film is shown.
@@ -70,6 +83,7 @@ impl Settings {
                 size: scene.size,
                 max_bounces: scene.max_bounces,
                 jitter: DEFAULT_JITTER,
+                sampler: Sampler::default(),
                 seed: 0,
                 scene,
             },

@@ -8,7 +8,7 @@ use common::scenes::BURNING;
 use common::{Gpu, bits, film, probe, prove, scene_of, small};
 use glam::DVec3;
 use std::sync::Arc;
-use thinlens::gpu_types::{Camera, Counters, SceneData, TracePush};
+use thinlens::gpu_types::{Camera, Counters, SceneData, TracePush, sampler_constant};
 use thinlens::passes::{SceneBuffers, Trace};
 use thinlens::reference::{self, sampler};
 use thinlens::renderer::schedule::Pass;
@@ -36,7 +36,7 @@ fn record(gpu: &Gpu, settings: &Settings) -> Result<Vec<Vec<[f32; 4]>>> {
     let Settings { estimator, samples, .. } = settings;
     let device = gpu.device();
     let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene))?;
-    let trace = Trace::new(device, gpu.shader("trace"), &scene)?;
+    let trace = Trace::new(device, gpu.shader("trace"), sampler_constant(estimator.sampler), &scene)?;
     let counters = Buffer::new(device, "counters", size_of::<Counters>() as u64, Residence::Device)?;
     let batch = Arc::new(Image::rgba32f(device, "batch", estimator.size)?);
     let read = Buffer::new(device, "samples", batch.byte_len(), Residence::Host)?;
@@ -79,7 +79,13 @@ fn the_film_is_the_mean_of_what_landed() {
             for (index, of_pixels) in (0..).zip(record(gpu, &settings)?) {
                 for (number, sample) in (0..).zip(of_pixels) {
                     let pixel = [number % size[0], number / size[0]];
-                    let xi = sampler::sample_values(settings.estimator.seed, pixel, index, 0);
+                    let xi = sampler::sample_values(
+                        settings.estimator.sampler,
+                        settings.estimator.seed,
+                        pixel,
+                        index,
+                        0,
+                    );
                     let offset = [xi[0], xi[1]].map(|xi| (xi - 0.5) * f64::from(jitter));
                     ensure!(sample[3] == 1.0, "a sample that is not finite");
                     replayed.add(

@@ -50,7 +50,7 @@ fn the_device_renders_what_the_oracle_does() {
             "picture_upside_down",
             "picture_mirrored",
             "half_a_pixel_off",
-            "sampler_without_seed",
+            "sobol_without_seed",
             "disk_sector_mirrored",
             "shadow_limit_ignored",
             "light_by_the_cosine_to_the_axis",

@@ -10,7 +10,7 @@ use thinlens::reference::intersect::intersect;
 use thinlens::reference::sampler::{concentric_disk, pcg4d, sample_values};
 use thinlens::reference::shading::radiance;
 use thinlens::reference::{Ray, Reference, tone};
-use thinlens::settings::Settings;
+use thinlens::settings::{Sampler, Settings};
 
 /// Catches an oracle whose disk map is not Shirley and Chiu's: centre, axes and corners are known,
 /// radii stay within one, and the moments are those of a uniform disk.
@@ -42,7 +42,7 @@ fn the_sampler_is_the_one_that_is_cited() {
     assert_eq!(pcg4d([640, 480, u32::MAX, 7]), [0x38a5_b8b8, 0xc6be_f138, 0x29d3_dc31, 0x5159_ac80]);
     let mut sums = [0.0; 4];
     for index in 0..10_000 {
-        let values = sample_values(3, [17, 5], index, 0);
+        let values = sample_values(Sampler::Random, 3, [17, 5], index, 0);
         for (sum, value) in sums.iter_mut().zip(values) {
             assert!((0.0..1.0).contains(&value));
             *sum += value / 10_000.0;
@@ -87,7 +87,7 @@ fn primary_rays_meet_in_the_focal_plane() {
             let expected = [0, 1].map(|axis| f64::from(pixel[axis]) + 0.5 + sample.offset[axis]);
             assert!((x - expected[0]).abs() < 1e-9 && (y - expected[1]).abs() < 1e-9, "{pixel:?}, {index}");
             // Two values for the film, two others for the lens.
-            let xi = sample_values(estimator.seed, pixel, index, 0);
+            let xi = sample_values(estimator.sampler, estimator.seed, pixel, index, 0);
             assert_eq!(sample.offset, [xi[0] - 0.5, xi[1] - 0.5]);
             let [a, b] =
                 concentric_disk([xi[2], xi[3]]).map(|value| value * f64::from(estimator.lens.diameter) / 2.0);

@@ -4,13 +4,14 @@ mod common;
 
 use anyhow::{Result, ensure};
 use bytemuck::{Pod, Zeroable};
-use common::probe::probe;
+use common::probe::{probe, probe_as};
 use common::scenes::FIXED_POINTS;
 use common::statistics::{evenness_p, normal_p, sidak};
 use common::{Gpu, prove};
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::f64::consts::{FRAC_PI_4, TAU};
 use thinlens::reference::sampler;
+use thinlens::settings::Sampler;
 
 /// Sample values are multiples of this.
 const STEP: f64 = 1.0 / 16_777_216.0;
@@ -23,9 +24,11 @@ struct Index {
     seed: u32,
 }
 
+const SAMPLERS: [Sampler; 2] = [Sampler::Random, Sampler::Sobol];
+
 /// The device's sample values, in multiples of [`STEP`].
-fn bits(gpu: &Gpu, indices: &[Index]) -> Vec<[u32; 4]> {
-    probe(gpu, "sampler", None, &[], indices)
+fn bits(gpu: &Gpu, sampler: Sampler, indices: &[Index]) -> Vec<[u32; 4]> {
+    probe_as(gpu, "sampler", sampler, None, &[], indices)
 }
 
 fn indices(size: [u32; 2], sample_index: u32, seed: u32) -> Vec<Index> {
@@ -77,17 +80,30 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
 fn sample_values_are_the_oracles_to_the_bit() {
     let check = |gpu: &Gpu| -> Result<String> {
         let mut compared = 0;
-        for (sample_index, seed) in [(0, 0), (0, 1), (77, 0xffff_ffff), ((1 << 24) - 1, 7)] {
-            let indices = indices([100, 100], sample_index, seed);
-            for (index, values) in indices.iter().zip(bits(gpu, &indices)) {
-                let expected = sampler::sample_values(seed, index.pixel, sample_index, 0);
-                ensure!(values.map(|value| f64::from(value) * STEP) == expected, "{index:?}: {values:?}");
-                compared += 4;
+        for sampler in SAMPLERS {
+            for (sample_index, seed) in [(0, 0), (0, 1), (77, 0xffff_ffff), ((1 << 24) - 1, 7)] {
+                let indices = indices([100, 100], sample_index, seed);
+                for (index, values) in indices.iter().zip(bits(gpu, sampler, &indices)) {
+                    let expected = sampler::sample_values(sampler, seed, index.pixel, sample_index, 0);
+                    let same = values.map(|value| f64::from(value) * STEP) == expected;
+                    ensure!(same, "{sampler:?}, {index:?}: {values:?}");
+                    compared += 4;
+                }
             }
         }
         Ok(format!("{compared} sample values, none differs"))
     };
-    prove(check, &["hash_without_its_fold", "sampler_without_seed", "sampler_without_pixel"]);
+    prove(
+        check,
+        &[
+            "hash_without_its_fold",
+            "sampler_without_seed",
+            "sampler_without_pixel",
+            "sobol_without_pixel",
+            "sobol_one_dimension_twice",
+            "scramble_off_by_a_constant",
+        ],
+    );
 }
 
 /// Catches a disk map that is not Shirley and Chiu's: centre, axes and corners are known; the inverse
@@ -170,7 +186,9 @@ fn lens_points_fill_the_disk_evenly() {
     const SECTORS: usize = 16;
     let check = |gpu: &Gpu| -> Result<String> {
         let squares: Vec<_> = (0..4)
-            .flat_map(|sample_index| bits(gpu, &indices([256, 256], sample_index, 0xdead_beef)))
+            .flat_map(|sample_index| {
+                bits(gpu, Sampler::Random, &indices([256, 256], sample_index, 0xdead_beef))
+            })
             .map(|values| [values[2], values[3]].map(|value| f64::from(value) * STEP))
             .collect();
         let mut cells = [0; RINGS * SECTORS];
@@ -210,8 +228,8 @@ fn lens_points_fill_the_disk_evenly() {
 fn dimensions_samples_frames_pixels_and_seeds_are_independent() {
     const WIDTH: usize = 256;
     const CELLS: usize = 8;
-    let check = |gpu: &Gpu| -> Result<String> {
-        let values = |sample_index, seed| bits(gpu, &indices([256, 256], sample_index, seed));
+    let check = |gpu: &Gpu, sampler: Sampler| -> Result<String> {
+        let values = |sample_index, seed| bits(gpu, sampler, &indices([256, 256], sample_index, seed));
         let base = values(16, 5);
         // Pairs that share no pixel: of the pixels in every other block of the step's size.
         let neighbours = |dx: usize, dy: usize| -> Vec<_> {
@@ -234,11 +252,15 @@ fn dimensions_samples_frames_pixels_and_seeds_are_independent() {
             ("the diagonal neighbour", neighbours(1, 1)),
             ("the next workgroup", neighbours(8, 0)),
         ];
+        // A pixel's samples keep apart in each dimension of the Sobol sequence. Across dimensions, whose
+        // scrambles are independent, two samples are independent too.
+        let stratified =
+            |name: &str, a: usize, b: usize| sampler == Sampler::Sobol && name.ends_with("sample") && a == b;
         let tests = 2 * (relations.len() * 16 - 4);
         let mut least = 1.0_f64;
         for (name, pairs) in &relations {
             for (a, b) in (0..4).flat_map(|a| (0..4).map(move |b| (a, b))) {
-                if *name == "itself" && a == b {
+                if *name == "itself" && a == b || stratified(name, a, b) {
                     continue;
                 }
                 let mut covariance = 0.0;
@@ -262,13 +284,23 @@ fn dimensions_samples_frames_pixels_and_seeds_are_independent() {
         Ok(format!("{tests} tests, least p = {least:.1e}, {:.1e} allowed", sidak(tests)))
     };
     prove(
-        check,
+        |gpu| check(gpu, Sampler::Random),
         &[
             "lens_values_from_the_film",
             "sampler_without_index",
             "sampler_without_seed",
             "sampler_without_pixel",
             "hash_without_its_rounds",
+        ],
+    );
+    prove(
+        |gpu| check(gpu, Sampler::Sobol),
+        &[
+            "lens_values_from_the_film",
+            "sobol_without_pixel",
+            "sobol_without_seed",
+            "sobol_one_key_for_all",
+            "sobol_keys_not_folded",
         ],
     );
 }
@@ -280,15 +312,75 @@ fn every_sample_has_another_place_in_its_pixel() {
     let check = |gpu: &Gpu| -> Result<String> {
         let indices: Vec<_> =
             (0..4096).map(|sample_index| Index { pixel: [5, 3], sample_index, seed: 9 }).collect();
-        let mut seen = HashSet::new();
-        for (frame, samples) in bits(gpu, &indices).chunks(16).enumerate() {
-            let before = seen.len();
-            seen.extend(samples.iter().map(|values| [values[0], values[1]]));
-            ensure!(seen.len() == before + 16, "frame {frame} adds {} places of 16", seen.len() - before);
+        for sampler in SAMPLERS {
+            let mut seen = HashSet::new();
+            for (frame, samples) in bits(gpu, sampler, &indices).chunks(16).enumerate() {
+                let before = seen.len();
+                seen.extend(samples.iter().map(|values| [values[0], values[1]]));
+                let added = seen.len() - before;
+                ensure!(added == 16, "{sampler:?}: frame {frame} adds {added} places of 16");
+            }
         }
-        Ok(format!("{} places after 256 frames of 16 samples", seen.len()))
+        Ok("4096 places after 256 frames of 16 samples, with each sampler".to_owned())
     };
-    prove(check, &["sampler_without_index", "index_within_the_frame_only"]);
+    prove(
+        check,
+        &["sampler_without_index", "index_within_the_frame_only", "sobol_index_within_the_frame_only"],
+    );
+}
+
+/// Catches a Sobol sequence with wrong directions, film and lens that take the same points, and a
+/// scramble that does not respect the bits above. The first 2^m samples of a pixel, and every block of
+/// 2^m after them, are a net: on the lens each of the 2^m intervals of equal size, whatever their
+/// shape, has exactly one point, and so has each strip of each dimension; in all four dimensions each
+/// interval of 8 in 2^m has exactly 8, for the quality parameter t of these dimensions is 3.
+#[test]
+fn sobol_points_fill_every_elementary_interval() {
+    let check = |gpu: &Gpu| -> Result<String> {
+        let mut intervals = 0;
+        let mut fill = |block: &[[u32; 4]], splits: [u32; 4], expected: usize| -> Result<()> {
+            let mut cells = HashMap::new();
+            for values in block {
+                let cell = [0, 1, 2, 3].map(|axis| values[axis] >> (24 - splits[axis]));
+                *cells.entry(cell).or_insert(0) += 1;
+            }
+            intervals += cells.len();
+            let even = cells.values().all(|count| *count == expected);
+            ensure!(even, "{} samples are uneven in intervals of 2^-{splits:?}", block.len());
+            Ok(())
+        };
+        for (pixel, seed) in [([0, 0], 0), ([17, 300], 1), ([4095, 4], 0xdead_beef)] {
+            let indices: Vec<_> = (0..4096).map(|sample_index| Index { pixel, sample_index, seed }).collect();
+            let values = bits(gpu, Sampler::Sobol, &indices);
+            for m in 0..=10_u32 {
+                for block in values.chunks(1 << m) {
+                    fill(block, [m, 0, 0, 0], 1)?;
+                    fill(block, [0, m, 0, 0], 1)?;
+                    for across in 0..=m {
+                        fill(block, [0, 0, across, m - across], 1)?;
+                    }
+                }
+            }
+            for block in values.chunks(1 << 9) {
+                for (a, b, c) in (0..=6)
+                    .flat_map(|a| (0..=6 - a).flat_map(move |b| (0..=6 - a - b).map(move |c| (a, b, c))))
+                {
+                    fill(block, [a, b, c, 6 - a - b - c], 8)?;
+                }
+            }
+        }
+        Ok(format!("{intervals} intervals, each with as many points as it should have"))
+    };
+    prove(
+        check,
+        &[
+            "sobol_one_dimension_twice",
+            "sobol_film_like_the_lens",
+            "sobol_directions_cut_short",
+            "sobol_directions_of_another_bit",
+            "scramble_of_the_bits_as_they_are",
+        ],
+    );
 }
 
 /// Catches samples that land one pixel off at the edge of a pixel, to either side, and jitter of the

@@ -13,6 +13,7 @@ use thinlens::reference::intersect::intersect;
 use thinlens::reference::shading::radiance;
 use thinlens::reference::{Ray, sampler, tone};
 use thinlens::scene::SceneRef;
+use thinlens::settings::Sampler;
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
@@ -57,7 +58,7 @@ impl Question {
 
 /// Values in [-1, 1), four for each index.
 fn random(index: u32, stream: u32) -> [f64; 4] {
-    sampler::sample_values(stream, [index, 0], 0, 0).map(|value| 2.0 * value - 1.0)
+    sampler::sample_values(Sampler::Random, stream, [index, 0], 0, 0).map(|value| 2.0 * value - 1.0)
 }
 
 fn random_direction(index: u32, stream: u32) -> DVec3 {

@@ -4,7 +4,7 @@ mod common;
 
 use common::{Gpu, run, small};
 use std::sync::Arc;
-use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush};
+use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush, sampler_constant};
 use thinlens::passes::{Accumulate, SceneBuffers, Trace};
 use thinlens::renderer::schedule::Pass;
 use thinlens::vulkan::{Buffer, Commands, Image, Residence};
@@ -26,6 +26,7 @@ fn a_deliberate_error_is_caught() {
 fn record_two_passes(gpu: &Gpu, barrier: bool) {
     let settings = small("suffern-boxes");
     let estimator = &settings.estimator;
+    let sampler = sampler_constant(estimator.sampler);
     let device = gpu.device();
     let image = |name| Arc::new(Image::rgba32f(device, name, estimator.size).expect("an image"));
     let (batch, film) = (image("batch"), image("film"));
@@ -33,8 +34,8 @@ fn record_two_passes(gpu: &Gpu, barrier: bool) {
     let counters = Arc::new(Buffer::new(device, "counters", size, Residence::Device).expect("a buffer"));
     let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene)).expect("a scene");
     let (trace, accumulate) = (
-        Trace::new(device, Trace::SHADER, &scene).expect("trace"),
-        Accumulate::new(device, Accumulate::SHADER).expect("accumulate"),
+        Trace::new(device, Trace::SHADER, sampler, &scene).expect("trace"),
+        Accumulate::new(device, Accumulate::SHADER, sampler).expect("accumulate"),
     );
     let traced = trace.bind(&scene, &batch, &counters).expect("bindings");
     let accumulated = accumulate.bind(&batch, &film).expect("bindings");

@@ -1,10 +1,15 @@
 // Sample values and the maps that shape them.
 //
-// A value depends on (seed, pixel, sample index, dimension) alone, so any sample can be
+// A value depends on (sampler, seed, pixel, sample index, dimension) alone, so any sample can be
 // computed again, anywhere, in any order. Four dimensions come from one call.
 
 #ifndef SAMPLING_GLSL
 #define SAMPLING_GLSL
+
+const uint SAMPLER_RANDOM = 0u;
+const uint SAMPLER_SOBOL = 1u;
+
+layout(constant_id = 0) const uint SAMPLER = SAMPLER_RANDOM;
 
 // Dimension blocks. FILM_AND_LENS holds the film jitter in xy and the lens point in zw.
 const uint BLOCK_FILM_AND_LENS = 0u;
@@ -25,9 +30,70 @@ uvec4 pcg4d(uvec4 v) {
     return v;
 }
 
+// Flips each bit depending on the bits below it, as a hash of them and the key decides: an Owen
+// scramble of the bits in reverse. S. Laine and T. Karras, "Stratified Sampling for Stochastic
+// Transparency", EGSR 2011, with the constants of N. Vegdahl, "Building a Better LK Hash", 2021.
+uvec4 scramble_upwards(uvec4 bits, uvec4 key) {
+    bits ^= bits * 0x3d20adeau;
+    bits += key;
+    bits *= (key >> 16u) | 1u;
+    bits ^= bits * 0x05526c56u;
+    bits ^= bits * 0x53a22864u;
+    return bits;
+}
+
+// The Sobol sequence's second dimension with its bits in reverse: bit i of the result is the sum,
+// modulo two, of the bits j >= i of the index for which the binomial of j over i is odd.
+uint sobol_second_reversed(uint index) {
+    index ^= (index >> 1u) & 0x55555555u;
+    index ^= (index >> 2u) & 0x33333333u;
+    index ^= (index >> 4u) & 0x0f0f0f0fu;
+    index ^= (index >> 8u) & 0x00ff00ffu;
+    index ^= index >> 16u;
+    return index;
+}
+
+// The direction numbers of its third and fourth dimension, bits in reverse, for the 24 bits that an
+// index has: S. Joe and F. Kuo, "Constructing Sobol Sequences with Better Two-dimensional
+// Projections", SIAM J. Sci. Comput. 30(5), 2008.
+const uvec2 SOBOL_THIRD_AND_FOURTH_REVERSED[24] = uvec2[24](
+    uvec2(0x000001u, 0x000001u), uvec2(0x000003u, 0x000003u), uvec2(0x000006u, 0x000004u),
+    uvec2(0x000009u, 0x00000au), uvec2(0x000017u, 0x00001fu), uvec2(0x00003au, 0x00002eu),
+    uvec2(0x000071u, 0x000045u), uvec2(0x0000a3u, 0x0000c9u), uvec2(0x000116u, 0x00011bu),
+    uvec2(0x000339u, 0x0002a4u), uvec2(0x000677u, 0x00079au), uvec2(0x0009aau, 0x000b67u),
+    uvec2(0x001601u, 0x00101eu), uvec2(0x003903u, 0x00302du), uvec2(0x007706u, 0x004041u),
+    uvec2(0x00aa09u, 0x00a0c3u), uvec2(0x010117u, 0x01f104u), uvec2(0x03033au, 0x02e28au),
+    uvec2(0x060671u, 0x0457dfu), uvec2(0x0909a3u, 0x0c9baeu), uvec2(0x171616u, 0x11a105u),
+    uvec2(0x3a3939u, 0x2a7289u), uvec2(0x717777u, 0x79e7dbu), uvec2(0xa3aaaau, 0xb6dba4u)
+);
+
+uvec2 sobol_third_and_fourth_reversed(uint index) {
+    uvec2 sum = uvec2(0u);
+    for (uint bit = 0u; bit < 24u; ++bit) {
+        sum ^= SOBOL_THIRD_AND_FOURTH_REVERSED[bit] & uvec2(-int(index >> bit & 1u));
+    }
+    return sum;
+}
+
+// The first four dimensions of the Sobol sequence, each Owen-scrambled by a key of its own: B. Burley,
+// "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020. The first in reverse is the index. Film and
+// lens share a point of four dimensions, and are no two padded pairs: what a blurred edge shows
+// depends on both at once. The lens has the first two, whose points lie best in the plane.
+uvec4 sobol_film_and_lens(uint index, uvec4 keys) {
+    uvec4 reversed = uvec4(sobol_third_and_fourth_reversed(index), index, sobol_second_reversed(index));
+    return bitfieldReverse(scramble_upwards(reversed, keys));
+}
+
 // Four values in [0, 1), multiples of 2^-24, which f32 holds exactly.
 vec4 sample_values(uint seed, uvec2 pixel, uint sample_index, uint block) {
-    uvec4 bits = pcg4d(uvec4(pixel, sample_index, seed + block * 0x9e3779b9u));
+    uvec4 bits;
+    if (SAMPLER == SAMPLER_SOBOL) {
+        // The lower half of the hash's bits is its worse one, and decides the scramble's first bits.
+        uvec4 keys = pcg4d(uvec4(pixel, block, seed));
+        bits = sobol_film_and_lens(sample_index, keys ^ (keys >> 16u));
+    } else {
+        bits = pcg4d(uvec4(pixel, sample_index, seed + block * 0x9e3779b9u));
+    }
     return vec4(bits >> 8u) * (1.0 / 16777216.0);
 }
 

@@ -53,11 +53,11 @@ struct Environment {
 
 // The numbers of things are specialization constants: a loop with a constant count unrolls, and
 // what it loads is then loaded once for all invocations.
-layout(constant_id = 0) const uint SPHERE_COUNT = 1u;
-layout(constant_id = 1) const uint BOX_COUNT = 1u;
-layout(constant_id = 2) const uint TRIANGLE_COUNT = 1u;
-layout(constant_id = 3) const uint PLANE_COUNT = 1u;
-layout(constant_id = 4) const uint LIGHT_COUNT = 1u;
+layout(constant_id = 1) const uint SPHERE_COUNT = 1u;
+layout(constant_id = 2) const uint BOX_COUNT = 1u;
+layout(constant_id = 3) const uint TRIANGLE_COUNT = 1u;
+layout(constant_id = 4) const uint PLANE_COUNT = 1u;
+layout(constant_id = 5) const uint LIGHT_COUNT = 1u;
 
 layout(set = 0, binding = 2, std430) readonly buffer Spheres { Sphere spheres[]; };
 layout(set = 0, binding = 3, std430) readonly buffer Boxes { Box boxes[]; };

@@ -12,12 +12,13 @@ impl Accumulate {
     /// The shader.
     pub const SHADER: Shader = shader!("accumulate");
 
-    /// Compiles the pass from its shader, or one with the same interface.
+    /// Compiles the pass from its shader, or one with the same interface, for the sampler that the
+    /// samples were made with.
     ///
     /// # Errors
     /// What Vulkan says.
-    pub fn new(device: &Arc<Device>, shader: Shader) -> Result<Self> {
-        Ok(Self(ComputePipeline::new(device, shader, &[])?))
+    pub fn new(device: &Arc<Device>, shader: Shader, sampler: u32) -> Result<Self> {
+        Ok(Self(ComputePipeline::new(device, shader, &[sampler])?))
     }
 
     /// Width and height of a workgroup: tiles are cut at multiples of it.

@@ -70,9 +70,9 @@ impl SceneBuffers {
         (0..).zip(front.into_iter().chain(scene)).collect()
     }
 
-    /// The specialization constants of `shaders/include/scene.glsl`.
-    pub fn constants(&self) -> &[u32] {
-        &self.counts
+    /// The specialization constants of `shaders/include/sampling.glsl` and `scene.glsl`.
+    pub fn constants(&self, sampler: u32) -> Vec<u32> {
+        std::iter::once(sampler).chain(self.counts).collect()
     }
 }
 
@@ -80,13 +80,13 @@ impl Trace {
     /// The shader.
     pub const SHADER: Shader = shader!("trace");
 
-    /// Compiles the pass from its shader, or one with the same interface, for a scene's numbers of
-    /// things.
+    /// Compiles the pass from its shader, or one with the same interface, for a sampler and a
+    /// scene's numbers of things.
     ///
     /// # Errors
     /// What Vulkan says.
-    pub fn new(device: &Arc<Device>, shader: Shader, scene: &SceneBuffers) -> Result<Self> {
-        Ok(Self(ComputePipeline::new(device, shader, scene.constants())?))
+    pub fn new(device: &Arc<Device>, shader: Shader, sampler: u32, scene: &SceneBuffers) -> Result<Self> {
+        Ok(Self(ComputePipeline::new(device, shader, &scene.constants(sampler))?))
     }
 
     /// From `scene` into the tracing image `batch`, counting into `counters`.

@@ -50,7 +50,7 @@ impl<'a> Reference<'a> {
 
     /// The sample of this start pixel and sample index.
     pub fn sample(&self, pixel: [u32; 2], index: u32) -> Sample {
-        let xi = sampler::sample_values(self.estimator.seed, pixel, index, 0);
+        let xi = sampler::sample_values(self.estimator.sampler, self.estimator.seed, pixel, index, 0);
         let jitter = f64::from(self.estimator.jitter);
         let offset = [(xi[0] - 0.5) * jitter, (xi[1] - 0.5) * jitter];
         self.trace(pixel, offset, sampler::concentric_disk([xi[2], xi[3]]))

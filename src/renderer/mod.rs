@@ -11,11 +11,13 @@ mod tally;
 pub use tally::Progress;
 
 use crate::error::{Error, Result};
-use crate::gpu_types::{AccumulatePush, Camera, Counters, ResolvePush, SceneData, TracePush};
+use crate::gpu_types::{
+    AccumulatePush, Camera, Counters, ResolvePush, SceneData, TracePush, sampler_constant,
+};
 use crate::passes::{Accumulate, Resolve, SceneBuffers, Shaders, Trace};
 use crate::scene::SceneRef;
-use crate::settings::{Estimator, Settings, View};
-use crate::vulkan::{BindingSet, Buffer, Device, Image, Recording, Residence, SOFTWARE, Shader};
+use crate::settings::{Estimator, Sampler, Settings, View};
+use crate::vulkan::{BindingSet, Buffer, Device, Image, Recording, Residence, SOFTWARE};
 use film::Film;
 use schedule::{Cursor, MAX_BATCH, Pass, reach};
 use std::sync::Arc;
@@ -39,7 +41,9 @@ pub struct Renderer {
     scene: Option<LoadedScene>,
     film: Option<Film>,
     trace_bindings: Option<BindingSet>,
-    trace_shader: Shader,
+    shaders: Shaders,
+    /// What the passes are compiled for.
+    sampler: Sampler,
     accumulate: Accumulate,
     resolve: Resolve,
     counters: Arc<Buffer>,
@@ -79,13 +83,15 @@ impl Renderer {
     /// # Errors
     /// What Vulkan says.
     pub fn with_shaders(device: &Arc<Device>, shaders: Shaders) -> Result<Self> {
+        let sampler = Sampler::default();
         let size = size_of::<Counters>() as u64;
         Ok(Self {
             scene: None,
             film: None,
             trace_bindings: None,
-            trace_shader: shaders.trace,
-            accumulate: Accumulate::new(device, shaders.accumulate)?,
+            shaders,
+            sampler,
+            accumulate: Accumulate::new(device, shaders.accumulate, sampler_constant(sampler))?,
             resolve: Resolve::new(device, shaders.resolve)?,
             counters: Arc::new(Buffer::new(device, "counters", size, Residence::Device)?),
             tally: Tally::new(device)?,
@@ -118,6 +124,13 @@ impl Renderer {
         let mut restart =
             last.is_none_or(|last| last.estimator != settings.estimator) || settings.samples < self.samples;
         let estimator = &settings.estimator;
+        if self.sampler != estimator.sampler {
+            self.device.wait_idle()?;
+            (self.scene, self.film, self.trace_bindings) = (None, None, None);
+            let sampler = sampler_constant(estimator.sampler);
+            self.accumulate = Accumulate::new(&self.device, self.shaders.accumulate, sampler)?;
+            self.sampler = estimator.sampler;
+        }
         if self.scene.as_ref().is_none_or(|loaded| loaded.scene != estimator.scene) {
             self.load_scene(&estimator.scene)?;
         }
@@ -164,7 +177,7 @@ impl Renderer {
         self.device.wait_idle()?;
         (self.scene, self.trace_bindings) = (None, None);
         let buffers = SceneBuffers::new(&self.device, &SceneData::new(scene))?;
-        let trace = Trace::new(&self.device, self.trace_shader, &buffers)?;
+        let trace = Trace::new(&self.device, self.shaders.trace, sampler_constant(self.sampler), &buffers)?;
         self.tally.forget_rate();
         self.scene = Some(LoadedScene { scene: scene.clone(), buffers, trace });
         Ok(())

@@ -3,10 +3,10 @@
 use super::Gpu;
 use bytemuck::{Pod, Zeroable};
 use std::sync::Arc;
-use thinlens::gpu_types::{Camera, SceneData};
+use thinlens::gpu_types::{Camera, SceneData, sampler_constant};
 use thinlens::passes::SceneBuffers;
 use thinlens::scene::Scene;
-use thinlens::settings::Estimator;
+use thinlens::settings::{Estimator, Sampler};
 use thinlens::vulkan::{Binding, BindingSet, Buffer, Commands, ComputePipeline, Residence};
 
 #[repr(C)]
@@ -30,6 +30,19 @@ pub fn probe<In: Pod, Out: Pod>(
     push: &[u8],
     inputs: &[In],
 ) -> Vec<Out> {
+    probe_as(gpu, name, Sampler::default(), scene, push, inputs)
+}
+
+/// Likewise, compiled for a sampler.
+pub fn probe_as<In: Pod, Out: Pod>(
+    gpu: &Gpu,
+    name: &'static str,
+    sampler: Sampler,
+    scene: Option<&Scene>,
+    push: &[u8],
+    inputs: &[In],
+) -> Vec<Out> {
+    let sampler = sampler_constant(sampler);
     let shader = gpu.shader(name);
     for (twin, size) in [("In", size_of::<In>()), ("Out", size_of::<Out>())] {
         let layout = shader.interface().structs.into_iter().find(|layout| layout.name == twin);
@@ -43,10 +56,10 @@ pub fn probe<In: Pod, Out: Pod>(
     let front = [Binding::Buffer(input), Binding::Buffer(Arc::clone(&output))];
     let scene = scene.map(|scene| SceneBuffers::new(device, &SceneData::new(scene)).expect("a scene"));
     let (bindings, constants) = match &scene {
-        Some(scene) => (scene.bindings(front), scene.constants()),
-        None => ((0..).zip(front).collect(), [].as_slice()),
+        Some(scene) => (scene.bindings(front), scene.constants(sampler)),
+        None => ((0..).zip(front).collect(), vec![sampler]),
     };
-    let pipeline = ComputePipeline::new(device, shader, constants).expect("a pipeline");
+    let pipeline = ComputePipeline::new(device, shader, &constants).expect("a pipeline");
     let bindings = BindingSet::new(&pipeline, &bindings).expect("bindings");
     let count = u32::try_from(inputs.len()).expect("not too many");
     run(gpu, &pipeline, &bindings, push, [count, 1]);
