@@ -130,7 +130,7 @@ pub struct SettingsArgs {
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     max_bounces: Option<u32>,
     /// How the points are chosen: sobol keeps a pixel's points apart, random does not [default: sobol]
-    #[arg(long, value_enum, hide_possible_values = true)]
+    #[arg(long, value_name = "sobol|random", value_enum, hide_possible_values = true)]
     sampler: Option<SamplerArg>,
     /// Chooses other random points [default: 0]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]

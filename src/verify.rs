@@ -2,6 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::reference::Reference;
+use crate::reference::film::Film;
 use crate::renderer::Renderer;
 use crate::settings::{DeviceChoice, Settings};
 use crate::vulkan::{Device, Instance};
@@ -12,6 +13,9 @@ pub const TOLERANCE: f64 = 1e-3;
 /// Next to edges rounding decides what a ray hits, so samples may differ entirely. This share of
 /// them may: several times what the built-in scenes show.
 pub const MAX_MISMATCH_SHARE: f64 = 1e-3;
+
+/// After so many samples the film starts anew, for what one more adds to a mean of f32 gets lost.
+const SAMPLES_PER_SEED: u32 = 16;
 
 /// How far a device and the oracle agree.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -27,12 +31,12 @@ pub struct Agreement {
 }
 
 impl Agreement {
-    /// Takes in single samples: the device's and the oracle's, r, g, b and count of each pixel.
-    pub fn add(&mut self, device: &[[f32; 4]], oracle: &[[f64; 4]]) {
+    /// Takes in samples: the device's and the oracle's, r, g, b and how many of each pixel.
+    pub fn add(&mut self, device: &[[f64; 4]], oracle: &[[f64; 4]]) {
         for (device, oracle) in device.iter().zip(oracle) {
-            let mut difference = f64::from(device[3]) - oracle[3];
+            let mut difference = device[3] - oracle[3];
             for channel in 0..3 {
-                let (device, oracle) = (f64::from(device[channel]), oracle[channel]);
+                let (device, oracle) = (device[channel], oracle[channel]);
                 let relative = (device - oracle).abs() / oracle.abs().max(1.0);
                 // A NaN is the largest difference of all.
                 difference = if relative.is_nan() { f64::INFINITY } else { difference.abs().max(relative) };
@@ -67,21 +71,33 @@ impl Agreement {
     }
 }
 
-/// Renders one sample a pixel with each of the seeds `seed .. seed + samples` on the device and with
-/// the oracle, compares sample by sample, and fails outside the bounds.
+/// Renders sample after sample of each pixel on the device and with the oracle, compares what each
+/// adds to the film, and fails outside the bounds. Every [`SAMPLES_PER_SEED`] samples the seed is raised
+/// by one.
 ///
 /// # Errors
 /// What Vulkan says, [`Error::OutOfRange`], or [`Error::Disagreement`].
 pub fn verify(renderer: &mut Renderer, settings: &Settings) -> Result<Agreement> {
     let mut agreement = Agreement::default();
     let mut settings = settings.clone();
-    let (first, count) = (settings.estimator.seed, settings.samples);
-    settings.samples = 1;
-    for seed in 0..count {
-        settings.estimator.seed = first.wrapping_add(seed);
-        renderer.set(&settings)?;
-        renderer.render(|_| ())?;
-        agreement.add(&renderer.read_film()?, &Reference::new(&settings.estimator).render(1));
+    let samples = settings.samples;
+    for first in (0..samples).step_by(SAMPLES_PER_SEED as usize) {
+        let reference = Reference::new(&settings.estimator);
+        let mut film = Film::new(settings.estimator.size);
+        let empty = vec![[0.0; 4]; film.texels().len()];
+        let mut before = [empty.clone(), empty];
+        for index in 0..samples.saturating_sub(first).min(SAMPLES_PER_SEED) {
+            settings.samples = index + 1;
+            renderer.set(&settings)?;
+            renderer.render(|_| ())?;
+            reference.add_sample(&mut film, index);
+            let device = renderer.read_film()?.iter().map(|texel| texel.map(f64::from)).collect();
+            let after = [device, film.texels().to_vec()];
+            let [device, oracle] = [0, 1].map(|side| added(&before[side], &after[side]));
+            agreement.add(&device, &oracle);
+            before = after;
+        }
+        settings.estimator.seed = settings.estimator.seed.wrapping_add(1);
     }
     if agreement.holds() {
         return Ok(agreement);
@@ -91,6 +107,19 @@ pub fn verify(renderer: &mut Renderer, settings: &Settings) -> Result<Agreement>
         mismatches: agreement.mismatch_share(),
         brightness: agreement.brightness_difference(),
     })
+}
+
+/// The mean and number of the samples that landed in each pixel between two states of a film.
+fn added(before: &[[f64; 4]], after: &[[f64; 4]]) -> Vec<[f64; 4]> {
+    let texel = |(before, after): (&[f64; 4], &[f64; 4])| {
+        let count = after[3] - before[3];
+        let mean = |channel: usize| match count {
+            0.0 => 0.0,
+            _ => (after[3] * after[channel] - before[3] * before[channel]) / count,
+        };
+        [mean(0), mean(1), mean(2), count]
+    };
+    before.iter().zip(after).map(texel).collect()
 }
 
 /// Verifies a device with several pictures and says how they agree, a line each.

@@ -97,8 +97,7 @@ fn the_film_is_the_mean_of_what_landed() {
             }
             let traced = f64::from(size[0] * size[1] * samples);
             let (mut worst, mut landed) = (0.0_f64, 0.0);
-            for (number, (device, expected)) in
-                film(gpu, &settings).iter().zip(replayed.into_texels()).enumerate()
+            for (number, (device, expected)) in film(gpu, &settings).iter().zip(replayed.texels()).enumerate()
             {
                 ensure!(
                     f64::from(device[3]) == expected[3],

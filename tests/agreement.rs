@@ -10,7 +10,7 @@ use glam::DVec3;
 use std::f64::consts::TAU;
 use std::ops::Range;
 use thinlens::reference::Reference;
-use thinlens::settings::Settings;
+use thinlens::settings::{Sampler, Settings};
 use thinlens::verify::{Agreement, verify};
 
 /// Catches a shader that strays from the mathematics anywhere on the way from the sampler to the
@@ -24,9 +24,12 @@ fn the_device_renders_what_the_oracle_does() {
         let mut renderer = gpu.renderer();
         let (mut samples, mut mismatches, mut share, mut brightness) = (0, 0, 0.0_f64, 0.0_f64);
         for settings in own.iter().chain(&builtin) {
-            for jitter in [1.0, 0.0] {
+            for (jitter, sampler) in
+                [(1.0, Sampler::Sobol), (1.0, Sampler::Random), (0.0, Sampler::Sobol), (2.5, Sampler::Sobol)]
+            {
                 let mut settings = settings.clone();
-                settings.estimator.jitter = jitter;
+                (settings.estimator.jitter, settings.estimator.sampler) = (jitter, sampler);
+                settings.estimator.seed = 7;
                 let agreement = verify(&mut renderer, &settings)?;
                 ensure!(agreement.samples == 64 * 48 * 8, "{} samples compared", agreement.samples);
                 (samples, mismatches) = (samples + agreement.samples, mismatches + agreement.mismatches);
@@ -50,7 +53,9 @@ fn the_device_renders_what_the_oracle_does() {
             "picture_upside_down",
             "picture_mirrored",
             "half_a_pixel_off",
+            "sampler_without_index",
             "sobol_without_seed",
+            "sobol_directions_of_another_bit",
             "disk_sector_mirrored",
             "shadow_limit_ignored",
             "light_by_the_cosine_to_the_axis",
@@ -62,7 +67,7 @@ fn the_device_renders_what_the_oracle_does() {
 #[test]
 fn the_bounds_are_bounds() {
     let oracle = vec![[0.5, 0.5, 0.5, 1.0]; 1000];
-    let holds = |texel: [f32; 4], how_many: usize| {
+    let holds = |texel: [f64; 4], how_many: usize| {
         let mut device = vec![[0.5, 0.5, 0.5, 1.0]; 1000];
         device[..how_many].fill(texel);
         let mut agreement = Agreement::default();
@@ -71,7 +76,7 @@ fn the_bounds_are_bounds() {
     };
     assert!(holds([0.5, 0.5, 0.5, 1.0], 1000) && holds([0.9, 0.5, 0.5, 1.0], 1));
     assert!(!holds([0.9, 0.5, 0.5, 1.0], 2));
-    assert!(!holds([f32::NAN, 0.5, 0.5, 1.0], 2));
+    assert!(!holds([f64::NAN, 0.5, 0.5, 1.0], 2));
     assert!(!holds([0.5, 0.5, 0.5, 0.0], 2));
     // Each sample agrees, but all are a little brighter.
     assert!(!holds([0.5009, 0.5009, 0.5009, 1.0], 1000));

@@ -26,6 +26,7 @@ fn flags_change_the_picture_and_only_as_they_should() {
         &["--jitter", "0"],
         &["--max-bounces", "0"],
         &["--seed", "1"],
+        &["--sampler", "random"],
         &["--samples", "10"],
         &["--exposure", "1"],
     ] {
@@ -260,6 +261,7 @@ fn help_teaches() {
         "--focal-distance",
         "--jitter",
         "--max-bounces",
+        "--sampler",
         "--seed",
         "--exposure",
         "--stats",

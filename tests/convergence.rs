@@ -30,14 +30,14 @@ fn blurred(settings: &Settings) -> Vec<bool> {
 
 /// The root of the mean square by which the chosen pixels are off.
 fn rmse(film: &[[f32; 4]], converged: &[[f32; 4]], chosen: &[bool]) -> f64 {
-    let (mut sum, mut count) = (0.0, 0.0);
+    let (mut sum, mut count) = (0.0_f64, 0.0);
     for ((got, expected), _) in film.iter().zip(converged).zip(chosen).filter(|(_, chosen)| **chosen) {
         for channel in 0..3 {
             sum += f64::from(got[channel] - expected[channel]).powi(2);
             count += 1.0;
         }
     }
-    (sum / count as f64).sqrt()
+    (sum / count).sqrt()
 }
 
 /// Catches points that do not keep apart, in the film's pair or the lens's, or not across batches: in

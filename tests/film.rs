@@ -5,7 +5,7 @@ mod common;
 use common::{Gpu, bits, film, scene_of, small};
 use std::time::Duration;
 use thinlens::renderer::{Pace, Renderer};
-use thinlens::settings::Settings;
+use thinlens::settings::{Sampler, Settings};
 
 /// Catches a focal distance that leaks into the pinhole: with no lens there is nothing to focus.
 #[test]
@@ -135,7 +135,7 @@ fn the_film_restarts_with_the_estimator_and_not_with_the_view() {
     let sum = |picture: &[u8]| picture.iter().map(|value| u64::from(*value)).sum::<u64>();
     assert!(sum(&bright) > sum(&dark));
 
-    let changes: [fn(&mut Settings); 8] = [
+    let changes: [fn(&mut Settings); 9] = [
         |settings| settings.estimator.lens.diameter *= 2.0,
         |settings| settings.estimator.lens.focal_distance *= 2.0,
         |settings| settings.estimator.camera.eye.y += 1.0,
@@ -143,6 +143,7 @@ fn the_film_restarts_with_the_estimator_and_not_with_the_view() {
         |settings| settings.estimator.jitter = 2.0,
         |settings| settings.estimator.max_bounces = 0,
         |settings| settings.estimator.seed = 7,
+        |settings| settings.estimator.sampler = Sampler::Random,
         |settings| settings.estimator.scene = small("suffern-mirror").estimator.scene,
     ];
     for (number, change) in changes.iter().enumerate() {

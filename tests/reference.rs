@@ -256,7 +256,7 @@ fn the_film_averages_what_lands() {
         film.add(start, offset, DVec3::new(value, 0.5 * value, 0.0));
     }
     assert_eq!(film.rejected, 1);
-    assert_eq!(film.into_texels(), [[4.0, 2.0, 0.0, 3.0], [3.0, 1.5, 0.0, 1.0]]);
+    assert_eq!(film.texels(), [[4.0, 2.0, 0.0, 3.0], [3.0, 1.5, 0.0, 1.0]]);
 }
 
 /// Catches a tone curve with a step: the two branches of sRGB meet.

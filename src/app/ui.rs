@@ -120,7 +120,7 @@ impl Panel {
                 let (now, estimator) = (&self.settings, &mut settings.estimator);
                 estimator.size = now.estimator.size;
                 estimator.jitter = now.estimator.jitter;
-                estimator.seed = now.estimator.seed;
+                (estimator.sampler, estimator.seed) = (now.estimator.sampler, now.estimator.seed);
                 settings.samples = now.samples;
                 settings.view = now.view;
                 self.initial = settings.clone();

@@ -37,7 +37,7 @@ impl Film {
     }
 
     /// Row by row from the top left.
-    pub fn into_texels(self) -> Vec<[f64; 4]> {
-        self.texels
+    pub fn texels(&self) -> &[[f64; 4]] {
+        &self.texels
     }
 }

@@ -14,6 +14,7 @@ pub mod tone;
 
 use crate::settings::Estimator;
 use camera::Projection;
+use film::Film;
 use glam::DVec3;
 
 /// A half-line from a point.
@@ -68,16 +69,17 @@ impl<'a> Reference<'a> {
     /// The film after samples `0 .. count` of every pixel: mean r, g, b and count, row by row from
     /// the top left.
     pub fn render(&self, count: u32) -> Vec<[f64; 4]> {
+        let mut film = Film::new(self.estimator.size);
+        (0..count).for_each(|index| self.add_sample(&mut film, index));
+        film.texels().to_vec()
+    }
+
+    /// Adds the sample `index` of every pixel to a film.
+    pub fn add_sample(&self, film: &mut Film, index: u32) {
         let [width, height] = self.estimator.size;
-        let mut film = film::Film::new(self.estimator.size);
-        for index in 0..count {
-            for y in 0..height {
-                for x in 0..width {
-                    let sample = self.sample([x, y], index);
-                    film.add([x, y], sample.offset, sample.radiance);
-                }
-            }
+        for pixel in (0..height).flat_map(|y| (0..width).map(move |x| [x, y])) {
+            let sample = self.sample(pixel, index);
+            film.add(pixel, sample.offset, sample.radiance);
         }
-        film.into_texels()
     }
 }
