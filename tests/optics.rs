@@ -20,8 +20,17 @@ fn glowing(shape: &str, diameter: f32, focal_distance: f32, samples: u32) -> Set
     settings
 }
 
-fn ball([x, y, z]: [f64; 3], radius: f64) -> String {
-    format!("[[sphere]]\ncenter = [{x}, {y}, {z}]\nradius = {radius}\n")
+/// A square parallel to the lens: unlike a ball's its picture is not stretched off the axis.
+fn tile([x, y, z]: [f64; 3], edge: f64) -> String {
+    let half = edge / 2.0;
+    format!(
+        "[[box]]\nlower = [{}, {}, {}]\nupper = [{}, {}, {z}]\n",
+        x - half,
+        y - half,
+        z - 1e-3,
+        x + half,
+        y + half
+    )
 }
 
 /// Pixels per unit of slope.
@@ -62,7 +71,7 @@ fn a_point_appears_where_it_projects_to() {
         let (mut count, mut worst) = (0, 0.0_f64);
         for point in [[2.0, 1.0, -10.0], [-2.5, -1.8, -10.0], [3.0, -2.0, -10.0], [0.0, 0.0, -10.0]] {
             for focal_distance in [10.0, 7.0, 20.0] {
-                let settings = glowing(&ball(point, 0.3), 0.5, focal_distance, 64);
+                let settings = glowing(&tile(point, 0.5), 0.5, focal_distance, 64);
                 let (sum, centroid, _) = spot(&film(gpu, &settings));
                 let expected = project(point);
                 ensure!(sum > 0.0, "{point:?} is not in the picture");
@@ -99,14 +108,14 @@ fn a_lamp_out_of_focus_spreads_over_its_circle_of_confusion() {
             ([-2.2, -1.4, -10.0], 0.8, 16.0),
             ([3.0, 2.0, -10.0], 1.0, 11.5),
         ] {
-            let radius = 0.05;
-            let settings = glowing(&ball(point, radius), diameter, focal_distance, 4096);
+            let width = 0.08;
+            let settings = glowing(&tile(point, width), diameter, focal_distance, 4096);
             let (_, _, measured) = spot(&film(gpu, &settings));
             let z = -point[2];
             let blur = circle_of_confusion(diameter.into(), focal_distance.into(), z, k());
-            // The lamp's own disc and the pixel's square add their second moments.
-            let own = 2.0 * radius / z * k();
-            let expected = (blur * blur + own * own + 16.0 / 12.0).sqrt();
+            // The lamp's own square and the pixel's add their second moments, a twelfth of their areas.
+            let own = width / z * k();
+            let expected = (blur * blur + 16.0 / 12.0 * (own * own + 1.0)).sqrt();
             for got in measured {
                 let error = (got / expected - 1.0).abs();
                 worst = worst.max(error);
