@@ -81,7 +81,7 @@ pub struct RenderArgs {
 #[derive(Debug, Args)]
 #[command(
     mut_arg("scene", |scene| scene.help("A built-in scene (see thinlens scenes) or a .toml file [default: every built-in one]")),
-    mut_arg("samples", |samples| samples.help("Antialiasing points per pixel, each with a seed of its own [default: 16]")),
+    mut_arg("samples", |samples| samples.help("Antialiasing points per pixel [default: 16]")),
     mut_arg("size", |size| size.help("Picture size in pixels [default: 128x96]")),
     mut_arg("exposure", |exposure| exposure.hide(true))
 )]

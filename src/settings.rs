@@ -60,8 +60,8 @@ pub struct Estimator {
 pub enum Sampler {
     /// Independent random numbers: error falls with the square root of their number.
     Random,
-    /// The Sobol sequence, Owen-scrambled, in pairs of dimensions: a pixel's samples keep apart from
-    /// each other on the film and on the lens. B. Burley, JCGT 9(4), 2020.
+    /// The Sobol sequence, Owen-scrambled, four dimensions for film and lens together: a pixel's samples
+    /// keep apart from each other on both. B. Burley, JCGT 9(4), 2020.
     #[default]
     Sobol,
 }

@@ -33,7 +33,10 @@ pub struct Agreement {
 impl Agreement {
     /// Takes in samples: the device's and the oracle's, r, g, b and how many of each pixel.
     pub fn add(&mut self, device: &[[f64; 4]], oracle: &[[f64; 4]]) {
-        for (device, oracle) in device.iter().zip(oracle) {
+        // A pixel that nothing was added to on either side has nothing to compare.
+        let texels =
+            device.iter().zip(oracle).filter(|(device, oracle)| device[3] != 0.0 || oracle[3] != 0.0);
+        for (device, oracle) in texels {
             let mut difference = device[3] - oracle[3];
             for channel in 0..3 {
                 let (device, oracle) = (device[channel], oracle[channel]);

@@ -71,12 +71,19 @@ fn blur_converges_faster_than_with_independent_points() {
                 power(sobol),
                 power(random)
             ));
-            ensure!(ratio < 0.6 && power(sobol) < power(random) - 0.08, "{}", figures.join("; "));
+            // A Sobol sequence that converges to a picture of its own would spoil the others' power.
+            let honest = (power(random) + 0.5).abs() < 0.06;
+            ensure!(honest && ratio < 0.6 && power(sobol) < power(random) - 0.08, "{}", figures.join("; "));
         }
         Ok(figures.join("; "))
     };
     prove(
         check,
-        &["sobol_film_like_the_lens", "sobol_one_dimension_twice", "scramble_of_the_bits_as_they_are"],
+        &[
+            "sobol_film_like_the_lens",
+            "sobol_one_dimension_twice",
+            "sobol_index_within_the_frame_only",
+            "scramble_of_the_bits_as_they_are",
+        ],
     );
 }

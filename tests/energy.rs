@@ -112,7 +112,7 @@ fn ten_million_samples_of_a_constant_are_that_constant() {
 }
 
 /// Catches rounding that favours one side: ten million noisy samples average to what they do in
-/// f64, within 1e-5. The oracle traces the same samples.
+/// f64, within 2e-5. The oracle traces the same samples.
 #[test]
 fn ten_million_noisy_samples_average_as_in_f64() {
     let edge = format!(
@@ -128,7 +128,7 @@ fn ten_million_noisy_samples_average_as_in_f64() {
             for channel in 0..3 {
                 let error = (f64::from(device[channel]) - oracle[channel]).abs();
                 worst = worst.max(error);
-                ensure!(error < 1e-5, "{device:?}, not {oracle:?}");
+                ensure!(error < 2e-5, "{device:?}, not {oracle:?}");
             }
         }
         Ok(format!("two pixels of ten million samples within {worst:.1e}"))

@@ -54,17 +54,18 @@ uint sobol_second_reversed(uint index) {
 }
 
 // The direction numbers of its third and fourth dimension, bits in reverse, for the 24 bits that an
-// index has: S. Joe and F. Kuo, "Constructing Sobol Sequences with Better Two-dimensional
-// Projections", SIAM J. Sci. Comput. 30(5), 2008.
+// index has: the polynomials of S. Joe and F. Kuo, "Constructing Sobol Sequences with Better
+// Two-dimensional Projections", SIAM J. Sci. Comput. 30(5), 2008, but for the fourth the initial numbers
+// 1, 1, 3, with which the first eight points of the pair are a net too.
 const uvec2 SOBOL_THIRD_AND_FOURTH_REVERSED[24] = uvec2[24](
-    uvec2(0x000001u, 0x000001u), uvec2(0x000003u, 0x000003u), uvec2(0x000006u, 0x000004u),
-    uvec2(0x000009u, 0x00000au), uvec2(0x000017u, 0x00001fu), uvec2(0x00003au, 0x00002eu),
-    uvec2(0x000071u, 0x000045u), uvec2(0x0000a3u, 0x0000c9u), uvec2(0x000116u, 0x00011bu),
-    uvec2(0x000339u, 0x0002a4u), uvec2(0x000677u, 0x00079au), uvec2(0x0009aau, 0x000b67u),
-    uvec2(0x001601u, 0x00101eu), uvec2(0x003903u, 0x00302du), uvec2(0x007706u, 0x004041u),
-    uvec2(0x00aa09u, 0x00a0c3u), uvec2(0x010117u, 0x01f104u), uvec2(0x03033au, 0x02e28au),
-    uvec2(0x060671u, 0x0457dfu), uvec2(0x0909a3u, 0x0c9baeu), uvec2(0x171616u, 0x11a105u),
-    uvec2(0x3a3939u, 0x2a7289u), uvec2(0x717777u, 0x79e7dbu), uvec2(0xa3aaaau, 0xb6dba4u)
+    uvec2(0x000001u, 0x000001u), uvec2(0x000003u, 0x000002u), uvec2(0x000006u, 0x000006u),
+    uvec2(0x000009u, 0x00000bu), uvec2(0x000017u, 0x000014u), uvec2(0x00003au, 0x00003du),
+    uvec2(0x000071u, 0x000047u), uvec2(0x0000a3u, 0x000089u), uvec2(0x000116u, 0x000192u),
+    uvec2(0x000339u, 0x0002f6u), uvec2(0x000677u, 0x000553u), uvec2(0x0009aau, 0x000ff4u),
+    uvec2(0x001601u, 0x001015u), uvec2(0x003903u, 0x00203fu), uvec2(0x007706u, 0x006041u),
+    uvec2(0x00aa09u, 0x00b082u), uvec2(0x010117u, 0x014186u), uvec2(0x03033au, 0x03d2cbu),
+    uvec2(0x060671u, 0x047514u), uvec2(0x0909a3u, 0x089f7du), uvec2(0x171616u, 0x193187u),
+    uvec2(0x3a3939u, 0x2f42c9u), uvec2(0x717777u, 0x555512u), uvec2(0xa3aaaau, 0xffff76u)
 );
 
 uvec2 sobol_third_and_fourth_reversed(uint index) {

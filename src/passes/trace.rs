@@ -8,6 +8,9 @@ use std::sync::Arc;
 /// Pass 1. See `shaders/trace.comp`.
 pub struct Trace(ComputePipeline);
 
+/// The bits of a sample index, which the Sobol sequence goes through.
+const SAMPLER_LOOP_STEPS: u64 = 24;
+
 /// A scene on the device.
 pub struct SceneBuffers {
     buffers: [Arc<Buffer>; 8],
@@ -52,11 +55,11 @@ impl SceneBuffers {
     }
 
     /// How often the loops of the trace pass can go round for one sample: over shapes for each ray,
-    /// over lights and reflections.
+    /// over lights and reflections, and in the sampler.
     pub fn most_loop_steps(&self, max_bounces: u32) -> u64 {
         let [spheres, boxes, triangles, planes, lights] = self.counts.map(u64::from);
         let shapes = spheres + boxes + triangles + planes;
-        u64::from(self.most_surfaces(max_bounces)) * (1 + shapes + lights * (1 + shapes))
+        SAMPLER_LOOP_STEPS + u64::from(self.most_surfaces(max_bounces)) * (1 + shapes + lights * (1 + shapes))
     }
 
     fn most_surfaces(&self, max_bounces: u32) -> u32 {

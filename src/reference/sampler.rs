@@ -1,4 +1,4 @@
-//! The counter-based sampler, and the map to the disk.
+//! The samplers, and the map to the disk.
 
 use crate::settings::Sampler;
 use std::f64::consts::FRAC_PI_4;
@@ -36,14 +36,15 @@ pub fn sample_values(sampler: Sampler, seed: u32, pixel: [u32; 2], index: u32, b
 
 /// The first four dimensions of the Sobol sequence, in multiples of 2^-32: S. Joe and F. Kuo, "Notes
 /// on Generating Sobol Sequences", 2008, with the primitive polynomials and initial numbers of their
-/// table.
+/// table, but for the fourth dimension's initial numbers: with 1, 1, 3 the first eight points of the
+/// third and fourth are a net.
 pub fn sobol(index: u32) -> [u32; 4] {
     [
         // The first dimension has no polynomial: its directions are the bits.
         radical_sum(index, &std::array::from_fn(|bit| 1 << (31 - bit))),
         radical_sum(index, &directions(1, 0, &[1])),
         radical_sum(index, &directions(2, 1, &[1, 3])),
-        radical_sum(index, &directions(3, 1, &[1, 3, 1])),
+        radical_sum(index, &directions(3, 1, &[1, 1, 3])),
     ]
 }
 
