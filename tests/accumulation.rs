@@ -5,7 +5,7 @@ mod common;
 use anyhow::{Result, ensure};
 use bytemuck::{Pod, Zeroable};
 use common::scenes::BURNING;
-use common::{Gpu, bits, film, probe, prove, scene_of, small};
+use common::{Gpu, bits, film, probe, prove, render, scene_of, settings_of, small};
 use glam::DVec3;
 use std::sync::Arc;
 use thinlens::gpu_types::{Camera, Counters, SceneData, TracePush, sampler_constant};
@@ -186,11 +186,8 @@ fn an_old_picture_leaves_no_trace() {
         for jitter in [1.0, 3.0] {
             (old.estimator.jitter, new.estimator.jitter) = (jitter, jitter);
             let mut renderer = gpu.renderer();
-            for settings in [&old, &new] {
-                renderer.set(settings)?;
-                renderer.render(|_| ())?;
-            }
-            let same = bits(&renderer.read_film()?) == bits(&film(gpu, &new));
+            render(&mut renderer, &old)?;
+            let same = bits(&render(&mut renderer, &new)?) == bits(&film(gpu, &new));
             ensure!(same, "jitter {jitter}: the old picture is still there");
         }
         Ok("the same bits after a picture of 1e9 as after none".to_owned())
@@ -202,13 +199,10 @@ fn an_old_picture_leaves_no_trace() {
 /// that are left out without a word: averaged and rejected samples are all that were traced.
 #[test]
 fn samples_that_are_not_finite_are_rejected_and_reported() {
-    let mut settings = Settings::of_scene(scene_of(BURNING));
-    (settings.estimator.size, settings.samples) = ([64, 48], 8);
+    let settings = settings_of(BURNING, [64, 48], 8);
     let check = |gpu: &Gpu| -> Result<String> {
         let mut renderer = gpu.renderer();
-        renderer.set(&settings)?;
-        renderer.render(|_| ())?;
-        let film = renderer.read_film()?;
+        let film = render(&mut renderer, &settings)?;
         let progress = renderer.progress();
         ensure!(film.iter().flatten().all(|value| value.is_finite()), "the film is not finite");
         let averaged: f64 = film.iter().map(|texel| f64::from(texel[3])).sum();

@@ -5,7 +5,7 @@ mod common;
 use anyhow::{Result, ensure};
 use common::scenes::{EVERYTHING, ROOM};
 use common::statistics::Spread;
-use common::{Gpu, pictures, prove, settings_of, small};
+use common::{Gpu, pictures, pixels, prove, settings_of, small};
 use glam::DVec3;
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -110,14 +110,12 @@ material = "lamp"
 /// the film's numbers.
 fn independent_picture(
     settings: &Settings,
-    seed: u64,
+    seed: u32,
     lens: impl Fn([f64; 2], [f64; 2]) -> [f64; 2],
 ) -> Vec<[f64; 3]> {
     let estimator = &settings.estimator;
     let reference = Reference::new(estimator);
-    let mut random = fastrand::Rng::with_seed(seed);
-    let [width, height] = estimator.size;
-    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
+    let mut random = fastrand::Rng::with_seed(seed.into());
     let mean = |pixel| {
         let mut sum = DVec3::ZERO;
         for _ in 0..settings.samples {
@@ -129,13 +127,13 @@ fn independent_picture(
         }
         (sum / f64::from(settings.samples)).to_array()
     };
-    pixels.map(mean).collect()
+    pixels(estimator.size).map(mean).collect()
 }
 
 /// So many of them, by two threads.
 fn independent_pictures(settings: &Settings, lens: fn([f64; 2], [f64; 2]) -> [f64; 2]) -> Spread {
     let half =
-        |seeds: Range<u64>| seeds.map(|seed| independent_picture(settings, seed, lens)).collect::<Vec<_>>();
+        |seeds: Range<u32>| seeds.map(|seed| independent_picture(settings, seed, lens)).collect::<Vec<_>>();
     let pictures = std::thread::scope(|scope| {
         let second = scope.spawn(|| half(PICTURES / 2..PICTURES));
         let mut pictures = half(0..PICTURES / 2);
@@ -145,7 +143,7 @@ fn independent_pictures(settings: &Settings, lens: fn([f64; 2], [f64; 2]) -> [f6
     Spread::of(pictures)
 }
 
-const PICTURES: u64 = 24;
+const PICTURES: u32 = 24;
 
 /// The share of a value that f32 may lose on a sample's way.
 const ROUNDING: f64 = 1e-5;
@@ -164,7 +162,7 @@ fn independent_samples_estimate_the_same_picture() {
     let check = |gpu: &Gpu| -> Result<String> {
         let mut figures = Vec::new();
         for (settings, expected) in scenes.iter().zip(&expected) {
-            let device = Spread::of(pictures(gpu, settings, 24)?);
+            let device = Spread::of(pictures(gpu, settings, PICTURES)?);
             figures.push(device.agree(expected, ROUNDING)?);
         }
         Ok(figures.join("; "))

@@ -3,7 +3,7 @@
 mod common;
 
 use anyhow::{Result, ensure};
-use common::{Gpu, film, prove, small};
+use common::{Gpu, circle_of_confusion, film, pixels, prove, small};
 use thinlens::reference::Reference;
 use thinlens::reference::intersect::intersect;
 use thinlens::settings::{Sampler, Settings};
@@ -15,14 +15,12 @@ fn blurred(settings: &Settings) -> Vec<bool> {
     let k = camera.view_distance_pixels(estimator.size[1]);
     let (diameter, focal_distance) = (f64::from(lens.diameter), f64::from(lens.focal_distance));
     let reference = Reference::new(estimator);
-    let [width, height] = estimator.size;
-    (0..height)
-        .flat_map(|y| (0..width).map(move |x| [x, y]))
+    pixels(estimator.size)
         .map(|pixel| {
             let ray = reference.trace(pixel, [0.0, 0.0], [0.0, 0.0]).ray;
             intersect(&estimator.scene, ray, 0.0).is_some_and(|hit| {
                 let depth = hit.distance * ray.direction.dot(-camera.frame().w());
-                diameter * (depth - focal_distance).abs() / (depth * focal_distance) * k > 2.0
+                circle_of_confusion(diameter, focal_distance, depth, k) > 2.0
             })
         })
         .collect()

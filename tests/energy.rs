@@ -4,7 +4,7 @@ mod common;
 
 use anyhow::{Result, ensure};
 use common::statistics::{Moments, sidak};
-use common::{Gpu, film, prove, settings_of};
+use common::{Gpu, film, prove, render, settings_of};
 use thinlens::reference::Reference;
 use thinlens::settings::Settings;
 
@@ -87,9 +87,7 @@ const MANY: u32 = 10_000_000;
 fn long_film(gpu: &Gpu, settings: &Settings) -> Result<Vec<[f32; 4]>> {
     let mut renderer = gpu.renderer();
     renderer.set_max_batch(1 << 16);
-    renderer.set(settings)?;
-    renderer.render(|_| ())?;
-    Ok(renderer.read_film()?)
+    render(&mut renderer, settings)
 }
 
 /// Catches a mean that drifts: ten million samples of 0.3 are 0.3, to the bit. 0.5 would hide the

@@ -7,7 +7,7 @@
 mod common;
 
 use anyhow::{Context, Result, ensure};
-use common::{Gpu, decode_png, probe, prove};
+use common::{Gpu, decode_png, pixels, probe, prove};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use thinlens::gpu_types::ResolvePush;
@@ -64,7 +64,7 @@ fn resolve(gpu: &Gpu, case: &Case) -> Result<Vec<u8>> {
 }
 
 fn film(extent: [u32; 2], texel: impl Fn(u32, u32) -> [f32; 4]) -> Vec<[f32; 4]> {
-    (0..extent[1]).flat_map(|y| (0..extent[0]).map(move |x| (x, y))).map(|(x, y)| texel(x, y)).collect()
+    pixels(extent).map(|[x, y]| texel(x, y)).collect()
 }
 
 /// Bands of red, green, blue, white and a mixture, from black on the left to beyond white.

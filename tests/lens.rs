@@ -4,10 +4,11 @@ mod common;
 
 use anyhow::{Result, ensure};
 use bytemuck::{Pod, Zeroable};
-use common::probe::{CameraPush, probe};
-use common::{Gpu, prove, scene_of};
+use common::probe::probe;
+use common::{Gpu, prove, settings_of};
 use glam::{DVec2, DVec3, Vec3};
-use thinlens::settings::{Estimator, Settings};
+use thinlens::gpu_types::Camera;
+use thinlens::settings::Estimator;
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
@@ -26,6 +27,19 @@ struct ProbedRay {
     pad1: u32,
 }
 
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+struct CameraPush {
+    camera: Camera,
+    extent: [u32; 2],
+}
+
+impl CameraPush {
+    fn new(estimator: &Estimator) -> Self {
+        Self { camera: Camera::new(estimator), extent: estimator.size }
+    }
+}
+
 /// The device's primary rays: origin and direction.
 fn primary_rays(gpu: &Gpu, estimator: &Estimator, places: &[Place]) -> Vec<(DVec3, DVec3)> {
     let push = CameraPush::new(estimator);
@@ -37,13 +51,11 @@ fn primary_rays(gpu: &Gpu, estimator: &Estimator, places: &[Place]) -> Vec<(DVec
 
 /// A camera that looks from somewhere to somewhere, tilted, with a wide lens.
 fn slanted(size: [u32; 2], vfov_degrees: f64, diameter: f64, focal_distance: f64) -> Estimator {
-    let mut estimator = Settings::of_scene(scene_of(&format!(
+    let toml = format!(
         "[camera]\neye = [3, 4, 12]\nlook_at = [-2, 1, -9]\nup = [0.2, 1, 0]\n\
          vfov_degrees = {vfov_degrees}\nlens_diameter = {diameter}\nfocal_distance = {focal_distance}\n"
-    )))
-    .estimator;
-    estimator.size = size;
-    estimator
+    );
+    settings_of(&toml, size, 1).estimator
 }
 
 /// The camera frame of [`slanted`], by the book, not by the program: right, up, backwards.
@@ -70,6 +82,13 @@ fn lens_points() -> Vec<[f32; 2]> {
     std::iter::once([0.0, 0.0])
         .chain(points.map(|(angle, radius)| [radius * angle.cos(), radius * angle.sin()]))
         .collect()
+}
+
+/// Every one of those film positions with every one of those lens points.
+fn places(size: [u32; 2]) -> Vec<Place> {
+    let with_lens =
+        |(pixel, offset)| lens_points().into_iter().map(move |disk| Place { pixel, offset, disk });
+    film_positions(size).into_iter().flat_map(with_lens).collect()
 }
 
 /// Where a point appears on the film, in pixels from its upper left corner: straight through the
@@ -103,11 +122,7 @@ fn primary_rays_go_from_the_lens_to_the_point_in_focus() {
         ] {
             let estimator = slanted(size, vfov, diameter, focal_distance);
             let focal_distance = f64::from(estimator.lens.focal_distance);
-            let places: Vec<_> = (film_positions(size).into_iter())
-                .flat_map(|(pixel, offset)| {
-                    lens_points().into_iter().map(move |disk| Place { pixel, offset, disk })
-                })
-                .collect();
+            let places = places(size);
             for (place, (origin, direction)) in places.iter().zip(primary_rays(gpu, &estimator, &places)) {
                 ensure!(
                     (direction.length() - 1.0).abs() < 1e-6,
@@ -218,11 +233,7 @@ fn the_field_of_view_reaches_every_edge_and_corner() {
 #[test]
 fn a_pinhole_has_one_ray_for_a_film_position() {
     let check = |gpu: &Gpu| -> Result<String> {
-        let places: Vec<_> = (film_positions([33, 21]).into_iter())
-            .flat_map(|(pixel, offset)| {
-                lens_points().into_iter().map(move |disk| Place { pixel, offset, disk })
-            })
-            .collect();
+        let places = places([33, 21]);
         let rays = [0.37, 10.0, 1e6].map(|focal_distance| {
             let push = CameraPush::new(&slanted([33, 21], 65.0, 0.0, focal_distance));
             probe::<_, ProbedRay>(gpu, "camera", None, bytemuck::bytes_of(&push), &places)

@@ -3,7 +3,7 @@
 mod common;
 
 use anyhow::{Result, ensure};
-use common::{Gpu, film, prove, scene_of};
+use common::{Gpu, circle_of_confusion, film, pixels, prove, settings_of};
 use glam::Vec3;
 use thinlens::scene::{self, Background, Material, Scene, SceneRef};
 use thinlens::settings::Settings;
@@ -12,12 +12,11 @@ const SIZE: [u32; 2] = [160, 120];
 
 /// A camera at the origin that looks along -z, 40 degrees high, and something that glows.
 fn glowing(shape: &str, diameter: f32, focal_distance: f32, samples: u32) -> Settings {
-    let mut settings = Settings::of_scene(scene_of(&format!(
+    let toml = format!(
         "[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, -1]\nvfov_degrees = 40\nlens_diameter = {diameter}\n\
          focal_distance = {focal_distance}\n[emissive.lamp]\nradiance = 1\n{shape}material = \"lamp\"\n"
-    )));
-    (settings.estimator.size, settings.samples) = (SIZE, samples);
-    settings
+    );
+    settings_of(&toml, SIZE, samples)
 }
 
 /// A square parallel to the lens: unlike a ball's its picture is not stretched off the axis.
@@ -43,16 +42,9 @@ fn project(point: [f64; 3]) -> [f64; 2] {
     [80.0 + k() * point[0] / -point[2], 60.0 - k() * point[1] / -point[2]]
 }
 
-/// The diameter in pixels of the picture of a point at depth `z`: by similar triangles, the cone from
-/// the lens through the point is D |z - F| / z wide in the focal plane, of which a pixel is F / k.
-fn circle_of_confusion(diameter: f64, focal_distance: f64, z: f64, k: f64) -> f64 {
-    diameter * (z - focal_distance).abs() / (z * focal_distance) * k
-}
-
 /// Sum, centroid, and across x and y the diameter of a disc of the same second moment.
 fn spot(film: &[[f32; 4]]) -> (f64, [f64; 2], [f64; 2]) {
-    let pixels =
-        || (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| [f64::from(x) + 0.5, f64::from(y) + 0.5]));
+    let pixels = || pixels(SIZE).map(|pixel| pixel.map(|at| f64::from(at) + 0.5));
     let light = |index: usize| f64::from(film[index][0]);
     let sum: f64 = (0..film.len()).map(light).sum();
     let mean =
@@ -165,8 +157,8 @@ fn profile(film: &[[f32; 4]], width: u32, columns: (u32, u32), rows: (u32, u32))
     (columns.0..columns.1).map(column).collect()
 }
 
-/// Catches a wrong lens radius or focal distance, a focal sphere, and a disk filled unevenly, on a step edge in front of and behind the focal plane: upright and
-/// lying, through the axis and in the corner.
+/// Catches a wrong lens radius or focal distance, a focal sphere, and a disk filled unevenly, on a step
+/// edge in front of and behind the focal plane: upright and lying, through the axis and in the corner.
 #[test]
 fn an_edge_out_of_focus_spreads_over_its_circle_of_confusion() {
     let check = |gpu: &Gpu| -> Result<String> {

@@ -2,15 +2,15 @@
 
 mod common;
 
-use common::scene_of;
 use common::scenes::FIXED_POINTS;
+use common::{scene_of, settings_of};
 use glam::DVec3;
 use thinlens::reference::film::Film;
 use thinlens::reference::intersect::intersect;
 use thinlens::reference::sampler::{concentric_disk, pcg4d, sample_values};
 use thinlens::reference::shading::radiance;
 use thinlens::reference::{Ray, Reference, tone};
-use thinlens::settings::{Sampler, Settings};
+use thinlens::settings::Sampler;
 
 /// Catches an oracle whose disk map is not Shirley and Chiu's: centre, axes and corners are known,
 /// radii stay within one, and the moments are those of a uniform disk.
@@ -52,14 +52,6 @@ fn the_sampler_is_the_one_that_is_cited() {
     assert!(sums.iter().all(|mean| (mean - 0.5).abs() < 5.0 * (1.0_f64 / 12.0).sqrt() / 100.0), "{sums:?}");
 }
 
-fn with(scene: &str, size: [u32; 2]) -> Settings {
-    let scene = scene_of(scene);
-    let mut settings = Settings::of_scene(scene);
-    settings.estimator.size = size;
-    settings.samples = 1;
-    settings
-}
-
 const CAMERA: &str = "[camera]\neye = [1, 2, 3]\nlook_at = [0, 1, -4]\nvfov_degrees = 70\n\
                       lens_diameter = 0.8\nfocal_distance = 6\n";
 
@@ -68,7 +60,7 @@ const CAMERA: &str = "[camera]\neye = [1, 2, 3]\nlook_at = [0, 1, -4]\nvfov_degr
 /// point projects back to the film position.
 #[test]
 fn primary_rays_meet_in_the_focal_plane() {
-    let settings = with(CAMERA, [40, 30]);
+    let settings = settings_of(CAMERA, [40, 30], 1);
     let estimator = &settings.estimator;
     let frame = estimator.camera.frame();
     let eye = estimator.camera.eye.as_dvec3();
@@ -130,7 +122,7 @@ fn shading_has_the_values_of_its_formulas() {
         ),
     ];
     for (scene, expected) in cases {
-        let settings = with(&format!("{floor}{scene}"), [1, 1]);
+        let settings = settings_of(&format!("{floor}{scene}"), [1, 1], 1);
         let mut estimator = settings.estimator.clone();
         estimator.jitter = 0.0;
         let radiance = Reference::new(&estimator).sample([0, 0], 0).radiance;

@@ -138,26 +138,39 @@ pub fn settings_of(toml: &str, size: [u32; 2], samples: u32) -> Settings {
     settings
 }
 
+/// The pixels of a picture, row by row from the top left.
+pub fn pixels([width, height]: [u32; 2]) -> impl Iterator<Item = [u32; 2]> {
+    (0..height).flat_map(move |y| (0..width).map(move |x| [x, y]))
+}
+
+/// The diameter in pixels of the picture of a point at depth `z`: by similar triangles, the cone from
+/// the lens through the point is D |z - F| / z wide in the focal plane, of which a pixel is F / k.
+pub fn circle_of_confusion(diameter: f64, focal_distance: f64, z: f64, k: f64) -> f64 {
+    diameter * (z - focal_distance).abs() / (z * focal_distance) * k
+}
+
 /// Films of the same settings with the seeds `0 .. count`: r, g, b of each pixel.
 pub fn pictures(gpu: &Gpu, settings: &Settings, count: u32) -> anyhow::Result<Vec<Vec<[f64; 3]>>> {
     let mut renderer = gpu.renderer();
     let mut settings = settings.clone();
     let of_seed = |seed| {
         settings.estimator.seed = seed;
-        renderer.set(&settings)?;
-        renderer.render(|_| ())?;
-        let film = renderer.read_film()?;
+        let film = render(&mut renderer, &settings)?;
         Ok(film.iter().map(|texel| [texel[0], texel[1], texel[2]].map(f64::from)).collect())
     };
     (0..count).map(of_seed).collect()
 }
 
-/// Renders from the start, and gives the film.
+/// Renders to the end, and gives the film.
+pub fn render(renderer: &mut Renderer, settings: &Settings) -> anyhow::Result<Vec<[f32; 4]>> {
+    renderer.set(settings)?;
+    renderer.render(|_| ())?;
+    Ok(renderer.read_film()?)
+}
+
+/// Likewise, with a renderer of its own.
 pub fn film(gpu: &Gpu, settings: &Settings) -> Vec<[f32; 4]> {
-    let mut renderer = gpu.renderer();
-    renderer.set(settings).expect("valid settings");
-    renderer.render(|_| ()).expect("a rendering");
-    renderer.read_film().expect("a film")
+    render(&mut gpu.renderer(), settings).expect("a film")
 }
 
 /// The bits of a film: equal films may differ in -0 and 0, equal bits do not.

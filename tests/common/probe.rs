@@ -3,24 +3,14 @@
 use super::Gpu;
 use bytemuck::{Pod, Zeroable};
 use std::sync::Arc;
-use thinlens::gpu_types::{Camera, SceneData, sampler_constant};
+use thinlens::gpu_types::{SceneData, sampler_constant};
 use thinlens::passes::SceneBuffers;
 use thinlens::scene::Scene;
-use thinlens::settings::{Estimator, Sampler};
+use thinlens::settings::Sampler;
 use thinlens::vulkan::{Binding, BindingSet, Buffer, Commands, ComputePipeline, Residence};
 
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable)]
-pub struct CameraPush {
-    pub camera: Camera,
-    pub extent: [u32; 2],
-}
-
-impl CameraPush {
-    pub fn new(estimator: &Estimator) -> Self {
-        Self { camera: Camera::new(estimator), extent: estimator.size }
-    }
-}
+/// Sample values are multiples of this.
+pub const STEP: f64 = 1.0 / 16_777_216.0;
 
 /// What the shader `tests/probes/NAME.comp` makes of each input.
 pub fn probe<In: Pod, Out: Pod>(
@@ -74,4 +64,36 @@ pub fn run(gpu: &Gpu, pipeline: &ComputePipeline, bindings: &BindingSet, push: &
     recording.barrier();
     recording.submit().expect("a submission");
     commands.wait().expect("the device");
+}
+
+/// Two sample values for the film, two for the lens, and the jitter in pixels.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct Values {
+    pub film: [f32; 2],
+    pub lens: [f32; 2],
+    pub jitter: f32,
+    pub pad0: u32,
+}
+
+/// Offset from the pixel's centre in pixels, the pixel landed in, and the point of the unit disk.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct Warped {
+    pub offset: [f32; 2],
+    pub landing: [i32; 2],
+    pub disk: [f32; 2],
+}
+
+/// Where the device puts samples of these values.
+pub fn warp(gpu: &Gpu, values: &[Values]) -> Vec<Warped> {
+    probe(gpu, "warps", None, &[], values)
+}
+
+/// The device's disk map.
+pub fn disk(gpu: &Gpu, squares: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let values: Vec<_> = (squares.iter())
+        .map(|square| Values { lens: square.map(|value| value as f32), ..Zeroable::zeroed() })
+        .collect();
+    warp(gpu, &values).iter().map(|warped| warped.disk.map(f64::from)).collect()
 }

@@ -61,13 +61,9 @@ impl Moments {
         Self { count, mean, sum_of_squares: error * error * count * (count - 1.0) }
     }
 
-    pub fn variance(&self) -> f64 {
-        self.sum_of_squares / (self.count - 1.0)
-    }
-
     /// The variance of the mean.
     pub fn mean_variance(&self) -> f64 {
-        self.variance() / self.count
+        self.sum_of_squares / (self.count - 1.0) / self.count
     }
 
     /// How unlikely it is by chance that two means differ as much, beyond a share of them that may
