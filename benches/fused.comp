@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 
 // Trace and accumulate in one kernel, for two_pass.rs to compare with. Not part of the program.
 
@@ -10,9 +11,11 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, rgba32f) uniform image2D film_image;
 
 void main() {
+    keep_scene();
+    TracePush push = push_constants;
     uvec2 pixel = lattice_pixel(push.lattice, gl_GlobalInvocationID.xy);
     if (inside(pixel, push.lattice.extent)) {
         vec4 film = imageLoad(film_image, ivec2(pixel));
-        imageStore(film_image, ivec2(pixel), merge(film, trace_batch(pixel)));
+        imageStore(film_image, ivec2(pixel), merge(film, trace_batch(push, pixel)));
     }
 }

@@ -66,9 +66,9 @@ pub struct Material {
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub struct Light {
     pub radiance: [f32; 3],
-    pub casts_shadows: u32,
-    pub position_or_direction: [f32; 3],
     pub is_directional: u32,
+    pub position_or_direction: [f32; 3],
+    pub pad0: u32,
 }
 
 /// `Environment` of scene.glsl.
@@ -171,7 +171,9 @@ pub struct SceneData {
     pub planes: Vec<Plane>,
     pub material_of_shape: Vec<u32>,
     pub materials: Vec<Material>,
+    /// Those that cast shadows come first.
     pub lights: Vec<Light>,
+    pub shadow_lights: usize,
     pub environment: Environment,
 }
 
@@ -196,6 +198,7 @@ impl Camera {
 impl SceneData {
     /// Every shape, material and light of a scene.
     pub fn new(scene: &Scene) -> Self {
+        let shadowing = || scene.lights.iter().filter(|light| light.shadows);
         let material_of_shape = (scene.spheres.iter().map(|shaded| shaded.material))
             .chain(scene.boxes.iter().map(|shaded| shaded.material))
             .chain(scene.triangles.iter().map(|shaded| shaded.material))
@@ -207,7 +210,11 @@ impl SceneData {
             planes: scene.planes.iter().map(|shaded| plane(&shaded.shape)).collect(),
             material_of_shape: material_of_shape.collect(),
             materials: scene.materials.iter().map(material).collect(),
-            lights: scene.lights.iter().map(light).collect(),
+            lights: shadowing()
+                .chain(scene.lights.iter().filter(|light| !light.shadows))
+                .map(light)
+                .collect(),
+            shadow_lights: shadowing().count(),
             environment: Environment {
                 horizon: scene.background.horizon.to_array(),
                 zenith: scene.background.zenith.to_array(),
@@ -264,8 +271,8 @@ fn light(light: &scene::Light) -> Light {
     };
     Light {
         radiance: light.radiance.to_array(),
-        casts_shadows: light.shadows.into(),
-        position_or_direction: position_or_direction.to_array(),
         is_directional,
+        position_or_direction: position_or_direction.to_array(),
+        pad0: 0,
     }
 }

@@ -25,7 +25,7 @@ fn twins() -> Vec<Twin> {
             Material,
             [color, ka, odd_color, kd, reflectance, ks, emission, exponent, inverse_checker_size]
         ),
-        twin!("Light", Light, [radiance, casts_shadows, position_or_direction, is_directional]),
+        twin!("Light", Light, [radiance, is_directional, position_or_direction]),
         twin!("Environment", Environment, [horizon, zenith, ambient]),
         twin!("Counters", Counters, [rays, rejected_samples]),
         twin!(

@@ -29,7 +29,7 @@ struct Question {
 struct Answer {
     normal: [f32; 3],
     distance: f32,
-    shape: u32,
+    material: u32,
     occluded: u32,
     pad0: [u32; 2],
 }
@@ -148,7 +148,7 @@ fn rays_meet_what_the_oracles_meet() {
                             (normal - expected.normal).length().min((normal + expected.normal).length());
                         let same = hit
                             && answer.occluded == 1
-                            && answer.shape == expected.material
+                            && answer.material == expected.material
                             && distance < 1e-4
                             && turn < 1e-3;
                         if same {

@@ -8,12 +8,16 @@
 
 const float MISS = 1e30;
 
+// Not min() and max(): what those must do with a NaN costs a software device three instructions more.
+float smaller(float a, float b) { return a < b ? a : b; }
+float larger(float a, float b) { return a > b ? a : b; }
+
 // A sphere stores its centre negated with curvature 1, flat shapes their normal with curvature 0
 // (see surface_normal). So the shape loops keep what they have at hand, and nothing is fetched again
 // by a diverging index.
 struct Hit {
     float distance;
-    uint shape;
+    uint material;
     vec3 normal;
     float curvature;
 };
@@ -25,7 +29,7 @@ float intersect_sphere(Ray ray, Sphere sphere) {
     float along = -dot(to_origin, ray.direction);
     vec3 closest = to_origin + along * ray.direction;
     float discriminant = sphere.radius * sphere.radius - dot(closest, closest);
-    float half_chord = sqrt(max(discriminant, 0.0));
+    float half_chord = sqrt(larger(discriminant, 0.0));
     float near = along - half_chord;
     float far = along + half_chord;
     float distance = near > 0.0 ? near : far;
@@ -36,10 +40,11 @@ float intersect_sphere(Ray ray, Sphere sphere) {
 float intersect_box(Ray ray, vec3 inverse_direction, Box box, out vec3 normal) {
     vec3 to_lower = (box.lower - ray.origin) * inverse_direction;
     vec3 to_upper = (box.upper - ray.origin) * inverse_direction;
-    vec3 enter = min(to_lower, to_upper);
-    vec3 leave = max(to_lower, to_upper);
-    float near = max(enter.x, max(enter.y, enter.z));
-    float far = min(leave.x, min(leave.y, leave.z));
+    bvec3 upwards = lessThan(to_lower, to_upper);
+    vec3 enter = mix(to_upper, to_lower, upwards);
+    vec3 leave = mix(to_lower, to_upper, upwards);
+    float near = larger(enter.x, larger(enter.y, enter.z));
+    float far = smaller(leave.x, smaller(leave.y, leave.z));
     bool outside = near > 0.0;
     float distance = outside ? near : far;
     normal = outside ? vec3(equal(enter, vec3(near))) : vec3(equal(leave, vec3(far)));
@@ -72,7 +77,7 @@ vec3 safe_inverse(vec3 direction) {
 
 void keep_nearer(inout Hit hit, float distance, uint shape, vec3 normal, float curvature) {
     if (distance < hit.distance) {
-        hit = Hit(distance, shape, normal, curvature);
+        hit = Hit(distance, get_material_of_shape(shape), normal, curvature);
     }
 }
 
@@ -81,20 +86,20 @@ Hit intersect_scene(Ray ray) {
     Hit hit = Hit(MISS, 0u, vec3(0.0), 0.0);
     vec3 inverse_direction = safe_inverse(ray.direction);
     uint shape = 0u;
-    for (uint i = 0u; i < SPHERE_COUNT; ++i, ++shape) {
-        keep_nearer(hit, intersect_sphere(ray, spheres[i]), shape, -spheres[i].center, 1.0);
+    [[unroll]] for (uint i = 0u; i < SPHERE_COUNT; ++i, ++shape) {
+        keep_nearer(hit, intersect_sphere(ray, get_sphere(i)), shape, -get_sphere(i).center, 1.0);
     }
-    for (uint i = 0u; i < BOX_COUNT; ++i, ++shape) {
+    [[unroll]] for (uint i = 0u; i < BOX_COUNT; ++i, ++shape) {
         vec3 normal;
-        float distance = intersect_box(ray, inverse_direction, boxes[i], normal);
+        float distance = intersect_box(ray, inverse_direction, get_box(i), normal);
         keep_nearer(hit, distance, shape, normal, 0.0);
     }
-    for (uint i = 0u; i < TRIANGLE_COUNT; ++i, ++shape) {
-        vec3 normal = cross(triangles[i].edge1, triangles[i].edge2);
-        keep_nearer(hit, intersect_triangle(ray, triangles[i]), shape, normal, 0.0);
+    [[unroll]] for (uint i = 0u; i < TRIANGLE_COUNT; ++i, ++shape) {
+        vec3 normal = cross(get_triangle(i).edge1, get_triangle(i).edge2);
+        keep_nearer(hit, intersect_triangle(ray, get_triangle(i)), shape, normal, 0.0);
     }
-    for (uint i = 0u; i < PLANE_COUNT; ++i, ++shape) {
-        keep_nearer(hit, intersect_plane(ray, planes[i]), shape, planes[i].normal, 0.0);
+    [[unroll]] for (uint i = 0u; i < PLANE_COUNT; ++i, ++shape) {
+        keep_nearer(hit, intersect_plane(ray, get_plane(i)), shape, get_plane(i).normal, 0.0);
     }
     return hit;
 }
@@ -108,18 +113,18 @@ vec3 surface_normal(Hit hit, vec3 position) {
 bool occluded(Ray ray, float limit) {
     float nearest = MISS;
     vec3 inverse_direction = safe_inverse(ray.direction);
-    for (uint i = 0u; i < SPHERE_COUNT; ++i) {
-        nearest = min(nearest, intersect_sphere(ray, spheres[i]));
+    [[unroll]] for (uint i = 0u; i < SPHERE_COUNT; ++i) {
+        nearest = smaller(nearest, intersect_sphere(ray, get_sphere(i)));
     }
-    for (uint i = 0u; i < BOX_COUNT; ++i) {
+    [[unroll]] for (uint i = 0u; i < BOX_COUNT; ++i) {
         vec3 normal;
-        nearest = min(nearest, intersect_box(ray, inverse_direction, boxes[i], normal));
+        nearest = smaller(nearest, intersect_box(ray, inverse_direction, get_box(i), normal));
     }
-    for (uint i = 0u; i < TRIANGLE_COUNT; ++i) {
-        nearest = min(nearest, intersect_triangle(ray, triangles[i]));
+    [[unroll]] for (uint i = 0u; i < TRIANGLE_COUNT; ++i) {
+        nearest = smaller(nearest, intersect_triangle(ray, get_triangle(i)));
     }
-    for (uint i = 0u; i < PLANE_COUNT; ++i) {
-        nearest = min(nearest, intersect_plane(ray, planes[i]));
+    [[unroll]] for (uint i = 0u; i < PLANE_COUNT; ++i) {
+        nearest = smaller(nearest, intersect_plane(ray, get_plane(i)));
     }
     return nearest < limit;
 }

@@ -40,9 +40,8 @@ struct Material {
 
 struct Light {
     vec3 radiance;
-    uint casts_shadows;
-    vec3 position_or_direction; // a direction points from the surface to the light
     uint is_directional;
+    vec3 position_or_direction; // a direction points from the surface to the light
 };
 
 struct Environment {
@@ -51,13 +50,18 @@ struct Environment {
     vec3 ambient; // radiance
 };
 
-// The numbers of things are specialization constants: a loop with a constant count unrolls, and
-// what it loads is then loaded once for all invocations.
+// The numbers of things are specialization constants, so that loops over them can unroll.
 layout(constant_id = 1) const uint SPHERE_COUNT = 1u;
 layout(constant_id = 2) const uint BOX_COUNT = 1u;
 layout(constant_id = 3) const uint TRIANGLE_COUNT = 1u;
 layout(constant_id = 4) const uint PLANE_COUNT = 1u;
 layout(constant_id = 5) const uint LIGHT_COUNT = 1u;
+layout(constant_id = 6) const uint SHADOW_LIGHT_COUNT = 1u; // the first so many lights cast shadows
+layout(constant_id = 7) const uint MATERIAL_COUNT = 1u;
+// Whether the scene is copied to variables before any control flow. Mesa's software device loads from
+// a buffer lane by lane inside loops and branches, and once for all lanes outside of them, which makes
+// rays about three times as fast. A GPU would run out of registers.
+layout(constant_id = 8) const uint SCENE_IS_KEPT = 0u;
 
 layout(set = 0, binding = 2, std430) readonly buffer Spheres { Sphere spheres[]; };
 layout(set = 0, binding = 3, std430) readonly buffer Boxes { Box boxes[]; };
@@ -67,5 +71,54 @@ layout(set = 0, binding = 6, std430) readonly buffer MaterialOfShape { uint mate
 layout(set = 0, binding = 7, std430) readonly buffer Materials { Material materials[]; };
 layout(set = 0, binding = 8, std430) readonly buffer Lights { Light lights[]; };
 layout(set = 0, binding = 9, std430) readonly buffer EnvironmentBuffer { Environment environment; };
+
+// The copies. There is one element to spare, for there are no empty arrays.
+Sphere kept_spheres[SPHERE_COUNT + 1u];
+Box kept_boxes[BOX_COUNT + 1u];
+Triangle kept_triangles[TRIANGLE_COUNT + 1u];
+Plane kept_planes[PLANE_COUNT + 1u];
+uint kept_material_of_shape[SPHERE_COUNT + BOX_COUNT + TRIANGLE_COUNT + PLANE_COUNT + 1u];
+Material kept_materials[MATERIAL_COUNT];
+Light kept_lights[LIGHT_COUNT + 1u];
+Environment kept_environment;
+
+// To be called first thing in main().
+void keep_scene() {
+    if (SCENE_IS_KEPT == 0u) {
+        return;
+    }
+    [[unroll]] for (uint i = 0u; i < SPHERE_COUNT; ++i) { kept_spheres[i] = spheres[i]; }
+    [[unroll]] for (uint i = 0u; i < BOX_COUNT; ++i) { kept_boxes[i] = boxes[i]; }
+    [[unroll]] for (uint i = 0u; i < TRIANGLE_COUNT; ++i) { kept_triangles[i] = triangles[i]; }
+    [[unroll]] for (uint i = 0u; i < PLANE_COUNT; ++i) { kept_planes[i] = planes[i]; }
+    [[unroll]] for (uint i = 0u; i < SPHERE_COUNT + BOX_COUNT + TRIANGLE_COUNT + PLANE_COUNT; ++i) {
+        kept_material_of_shape[i] = material_of_shape[i];
+    }
+    [[unroll]] for (uint i = 0u; i < MATERIAL_COUNT; ++i) { kept_materials[i] = materials[i]; }
+    [[unroll]] for (uint i = 0u; i < LIGHT_COUNT; ++i) { kept_lights[i] = lights[i]; }
+    kept_environment = environment;
+}
+
+Sphere get_sphere(uint i) { if (SCENE_IS_KEPT == 1u) { return kept_spheres[i]; } return spheres[i]; }
+Box get_box(uint i) { if (SCENE_IS_KEPT == 1u) { return kept_boxes[i]; } return boxes[i]; }
+Triangle get_triangle(uint i) { if (SCENE_IS_KEPT == 1u) { return kept_triangles[i]; } return triangles[i]; }
+Plane get_plane(uint i) { if (SCENE_IS_KEPT == 1u) { return kept_planes[i]; } return planes[i]; }
+uint get_material_of_shape(uint i) { if (SCENE_IS_KEPT == 1u) { return kept_material_of_shape[i]; } return material_of_shape[i]; }
+Light get_light(uint i) { if (SCENE_IS_KEPT == 1u) { return kept_lights[i]; } return lights[i]; }
+Environment get_environment() { if (SCENE_IS_KEPT == 1u) { return kept_environment; } return environment; }
+
+// The index differs from invocation to invocation.
+Material get_material(uint index) {
+    if (SCENE_IS_KEPT == 0u) {
+        return materials[index];
+    }
+    Material material = kept_materials[0];
+    [[unroll]] for (uint i = 1u; i < MATERIAL_COUNT; ++i) {
+        if (index == i) {
+            material = kept_materials[i];
+        }
+    }
+    return material;
+}
 
 #endif

@@ -25,18 +25,19 @@ vec3 surface_color(Material material, vec3 position) {
 vec3 background(vec3 direction) {
     float height = clamp(direction.y, 0.0, 1.0);
     // Not mix(): of two equal colours this makes exactly that colour.
-    return environment.horizon + (environment.zenith - environment.horizon) * (height * (2.0 - height));
+    Environment sky = get_environment();
+    return sky.horizon + (sky.zenith - sky.horizon) * (height * (2.0 - height));
 }
 
 // Emission, ambient, and direct light with hard shadows, towards -ray.direction.
 vec3 shade(Material material, Ray ray, vec3 position, vec3 normal, float offset, inout uint rays) {
     vec3 color = surface_color(material, position);
-    vec3 sum = material.emission + material.ka * color * environment.ambient;
+    vec3 sum = material.emission + material.ka * color * get_environment().ambient;
     if (material.kd == 0.0 && material.ks == 0.0) {
         return sum;
     }
-    for (uint i = 0u; i < LIGHT_COUNT; ++i) {
-        Light light = lights[i];
+    [[unroll]] for (uint i = 0u; i < LIGHT_COUNT; ++i) {
+        Light light = get_light(i);
         vec3 to_light = light.position_or_direction;
         float limit = MISS;
         if (light.is_directional == 0u) {
@@ -47,13 +48,13 @@ vec3 shade(Material material, Ray ray, vec3 position, vec3 normal, float offset,
         float cosine = dot(normal, to_light);
         if (cosine > 0.0) {
             bool shadowed = false;
-            if (light.casts_shadows != 0u) {
+            if (i < SHADOW_LIGHT_COUNT) {
                 ++rays;
                 shadowed = occluded(Ray(position + offset * normal, to_light), limit);
             }
             if (!shadowed) {
                 vec3 reflected = 2.0 * cosine * normal - to_light;
-                float highlight = max(dot(reflected, -ray.direction), 0.0);
+                float highlight = larger(dot(reflected, -ray.direction), 0.0);
                 // pow(0, 0) is undefined.
                 float gloss = highlight > 0.0 ? material.ks * pow(highlight, material.exponent) : 0.0;
                 sum += (material.kd * INVERSE_PI * color + gloss) * light.radiance * cosine;
@@ -79,9 +80,9 @@ vec3 radiance(Ray ray, uint max_bounces, inout uint rays) {
         vec3 normal = surface_normal(hit, position);
         normal = dot(normal, ray.direction) > 0.0 ? -normal : normal;
         vec3 magnitude = abs(position);
-        float offset = SURFACE_OFFSET * max(hit.distance, max(magnitude.x, max(magnitude.y, magnitude.z)));
+        float offset = SURFACE_OFFSET * larger(hit.distance, larger(magnitude.x, larger(magnitude.y, magnitude.z)));
 
-        Material material = materials[material_of_shape[hit.shape]];
+        Material material = get_material(hit.material);
         sum += throughput * shade(material, ray, position, normal, offset, rays);
         throughput *= material.reflectance;
         if (throughput == vec3(0.0)) {

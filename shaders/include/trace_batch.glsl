@@ -7,14 +7,17 @@
 #include "sampling.glsl"
 #include "shading.glsl"
 
-layout(push_constant, std430) uniform TracePush {
+struct TracePush {
     Camera camera;
     Lattice lattice;
     uint seed;
     uint max_bounces;
     uint first_sample;
     uint sample_count;
-} push;
+};
+
+// To be copied first thing in main(), for the same reason as the scene (see keep_scene).
+layout(push_constant, std430) uniform TraceConstants { TracePush push_constants; };
 
 layout(set = 0, binding = 1, std430) buffer Counters {
     uint rays;
@@ -23,7 +26,7 @@ layout(set = 0, binding = 1, std430) buffer Counters {
 
 // The mean of the samples first_sample .. first_sample + sample_count of the pixel, and in w how
 // many of them were finite.
-vec4 trace_batch(uvec2 pixel) {
+vec4 trace_batch(TracePush push, uvec2 pixel) {
     vec4 batch = vec4(0.0);
     uint rays = 0u;
     uint rejected = 0u;

@@ -2,11 +2,16 @@
 
 use crate::error::Result;
 use crate::gpu_types::{SceneData, TracePush};
-use crate::vulkan::{Binding, BindingSet, Buffer, ComputePipeline, Device, Image, Recording, Shader, shader};
+use crate::vulkan::{
+    Binding, BindingSet, Buffer, ComputePipeline, Device, Image, Recording, SOFTWARE, Shader, shader,
+};
 use std::sync::Arc;
 
 /// Pass 1. See `shaders/trace.comp`.
 pub struct Trace(ComputePipeline);
+
+/// More shapes than these are not copied: a shader has a loop over them for every ray, unrolled.
+const MOST_KEPT_SHAPES: usize = 128;
 
 /// The bits of a sample index, which the Sobol sequence goes through.
 const SAMPLER_LOOP_STEPS: u64 = 24;
@@ -14,8 +19,10 @@ const SAMPLER_LOOP_STEPS: u64 = 24;
 /// A scene on the device.
 pub struct SceneBuffers {
     buffers: [Arc<Buffer>; 8],
-    /// Spheres, boxes, triangles, planes, lights.
-    counts: [u32; 5],
+    /// Spheres, boxes, triangles, planes, lights, lights that cast shadows, materials.
+    counts: [u32; 7],
+    /// Whether the shaders copy the scene before they start.
+    kept: bool,
     /// Whether any material mirrors.
     reflects: bool,
 }
@@ -26,6 +33,7 @@ impl SceneBuffers {
     /// # Errors
     /// [`crate::error::Error::Memory`], or what Vulkan says.
     pub fn new(device: &Arc<Device>, scene: &SceneData) -> Result<Self> {
+        let shapes = scene.material_of_shape.len();
         let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
         Ok(Self {
             buffers: [
@@ -44,7 +52,10 @@ impl SceneBuffers {
                 count(scene.triangles.len()),
                 count(scene.planes.len()),
                 count(scene.lights.len()),
+                count(scene.shadow_lights),
+                count(scene.materials.len().max(1)),
             ],
+            kept: device.info().kind == SOFTWARE && shapes <= MOST_KEPT_SHAPES,
             reflects: scene.materials.iter().any(|material| material.reflectance != [0.0; 3]),
         })
     }
@@ -57,7 +68,7 @@ impl SceneBuffers {
     /// How often the loops of the trace pass can go round for one sample: over shapes for each ray,
     /// over lights and reflections, and in the sampler.
     pub fn most_loop_steps(&self, max_bounces: u32) -> u64 {
-        let [spheres, boxes, triangles, planes, lights] = self.counts.map(u64::from);
+        let [spheres, boxes, triangles, planes, lights, ..] = self.counts.map(u64::from);
         let shapes = spheres + boxes + triangles + planes;
         SAMPLER_LOOP_STEPS + u64::from(self.most_surfaces(max_bounces)) * (1 + shapes + lights * (1 + shapes))
     }
@@ -75,7 +86,7 @@ impl SceneBuffers {
 
     /// The specialization constants of `shaders/include/sampling.glsl` and `scene.glsl`.
     pub fn constants(&self, sampler: u32) -> Vec<u32> {
-        std::iter::once(sampler).chain(self.counts).collect()
+        std::iter::once(sampler).chain(self.counts).chain([self.kept.into()]).collect()
     }
 }
 

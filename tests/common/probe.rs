@@ -7,7 +7,7 @@ use thinlens::gpu_types::{SceneData, sampler_constant};
 use thinlens::passes::SceneBuffers;
 use thinlens::scene::Scene;
 use thinlens::settings::Sampler;
-use thinlens::vulkan::{Binding, BindingSet, Buffer, Commands, ComputePipeline, Residence};
+use thinlens::vulkan::{Binding, BindingSet, Buffer, Commands, ComputePipeline, Residence, SOFTWARE};
 
 /// Sample values are multiples of this.
 pub const STEP: f64 = 1.0 / 16_777_216.0;
@@ -49,11 +49,21 @@ pub fn probe_as<In: Pod, Out: Pod>(
         Some(scene) => (scene.bindings(front), scene.constants(sampler)),
         None => ((0..).zip(front).collect(), vec![sampler]),
     };
-    let pipeline = ComputePipeline::new(device, shader, &constants).expect("a pipeline");
-    let bindings = BindingSet::new(&pipeline, &bindings).expect("bindings");
-    let count = u32::try_from(inputs.len()).expect("not too many");
-    run(gpu, &pipeline, &bindings, push, [count, 1]);
-    bytemuck::allocation::pod_collect_to_vec(&output.bytes()[..bytes])
+    let answers = |constants: &[u32]| {
+        let pipeline = ComputePipeline::new(device, shader, constants).expect("a pipeline");
+        let bindings = BindingSet::new(&pipeline, &bindings).expect("bindings");
+        let count = u32::try_from(inputs.len()).expect("not too many");
+        run(gpu, &pipeline, &bindings, push, [count, 1]);
+        output.bytes()[..bytes].to_vec()
+    };
+    let found = answers(&constants);
+    if let (Some(_), SOFTWARE) = (&scene, device.info().kind) {
+        // Whether the scene is copied first may change nothing: the last constant.
+        let (kept, others) = constants.split_last().expect("a scene has constants");
+        let other = answers(&[others, &[1 - kept]].concat());
+        assert!(found == other, "{name}: copying the scene changes what comes out");
+    }
+    bytemuck::allocation::pod_collect_to_vec(&found)
 }
 
 /// One dispatch, until it is done.

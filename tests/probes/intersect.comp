@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 
 // What a ray meets first, and whether it meets anything before a limit.
 
@@ -16,7 +17,7 @@ struct In {
 struct Out {
     vec3 normal; // unit length, of the surface, on either side
     float distance;
-    uint shape;
+    uint material;
     uint occluded;
 };
 
@@ -24,12 +25,13 @@ layout(set = 0, binding = 0, std430) readonly buffer Inputs { In inputs[]; };
 layout(set = 0, binding = 1, std430) writeonly buffer Outputs { Out outputs[]; };
 
 void main() {
+    keep_scene();
     uint i = gl_GlobalInvocationID.x;
     if (i < inputs.length()) {
         In given = inputs[i];
         Ray ray = Ray(given.origin, given.direction);
         Hit hit = intersect_scene(ray);
         vec3 normal = surface_normal(hit, ray.origin + hit.distance * ray.direction);
-        outputs[i] = Out(normal, hit.distance, hit.shape, uint(occluded(ray, given.limit)));
+        outputs[i] = Out(normal, hit.distance, hit.material, uint(occluded(ray, given.limit)));
     }
 }

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 
 // The radiance along a ray.
 
@@ -26,6 +27,7 @@ layout(set = 0, binding = 0, std430) readonly buffer Inputs { In inputs[]; };
 layout(set = 0, binding = 1, std430) writeonly buffer Outputs { Out outputs[]; };
 
 void main() {
+    keep_scene();
     uint i = gl_GlobalInvocationID.x;
     if (i < inputs.length()) {
         uint rays = 0u;
