@@ -81,7 +81,7 @@ pub struct RenderArgs {
 /// `thinlens verify`.
 #[derive(Debug, Args)]
 #[command(
-    mut_arg("scene", |scene| scene.help("A built-in scene (see thinlens scenes), a .toml or .obj file [default: every built-in one]")),
+    mut_arg("scene", |scene| scene.help("A built-in scene (see thinlens scenes), .toml or .obj file [default: every built-in one]")),
     mut_arg("samples", |samples| samples.help("Antialiasing points per pixel [default: 16]")),
     mut_arg("size", |size| size.help("Picture size in pixels [default: 128x96]")),
     mut_arg("exposure", |exposure| exposure.hide(true))
@@ -109,7 +109,7 @@ pub struct DeviceArgs {
 /// What to render: a scene, and what to change of it.
 #[derive(Debug, Args, Default)]
 pub struct SettingsArgs {
-    /// A built-in scene (see thinlens scenes), a .toml or .obj file [default: version-4]
+    /// A built-in scene (see thinlens scenes), .toml or .obj file [default: version-4]
     scene: Option<String>,
     /// Antialiasing points per pixel: more for less noise [default: 64, in the viewer 256]
     #[arg(short = 'n', long, value_name = "N", allow_negative_numbers = true)]
