@@ -23,7 +23,8 @@ const PROOF_SAMPLES: u32 = 16;
         thinlens                                       the viewer, with sliders for the lens\n  \
         thinlens render -o picture.png                 the default scene to a file\n  \
         thinlens render -o sharp.png --lens-diameter 0 the same through a pinhole\n  \
-        thinlens render suffern-boxes -o boxes.exr     linear values and sample counts"
+        thinlens render suffern-boxes -o boxes.exr     linear values and sample counts\n  \
+        thinlens render bunny.obj -o bunny.png         a mesh, on a ground, in focus"
 )]
 pub struct Cli {
     /// Without one, the viewer opens.
@@ -80,7 +81,7 @@ pub struct RenderArgs {
 /// `thinlens verify`.
 #[derive(Debug, Args)]
 #[command(
-    mut_arg("scene", |scene| scene.help("A built-in scene (see thinlens scenes) or a .toml file [default: every built-in one]")),
+    mut_arg("scene", |scene| scene.help("A built-in scene (see thinlens scenes), .toml or .obj file [default: every built-in one]")),
     mut_arg("samples", |samples| samples.help("Antialiasing points per pixel [default: 16]")),
     mut_arg("size", |size| size.help("Picture size in pixels [default: 128x96]")),
     mut_arg("exposure", |exposure| exposure.hide(true))
@@ -108,14 +109,14 @@ pub struct DeviceArgs {
 /// What to render: a scene, and what to change of it.
 #[derive(Debug, Args, Default)]
 pub struct SettingsArgs {
-    /// A built-in scene (see thinlens scenes) or a .toml file [default: version-4]
+    /// A built-in scene (see thinlens scenes), .toml or .obj file [default: version-4]
     scene: Option<String>,
     /// Antialiasing points per pixel: more for less noise [default: 64, in the viewer 256]
     #[arg(short = 'n', long, value_name = "N", allow_negative_numbers = true)]
     samples: Option<u32>,
     /// Picture size in pixels [default: the scene's, in the viewer the window's]
     #[arg(short, long, value_name = "WxH", value_parser = parse_size)]
-    size: Option<[u32; 2]>,
+    pub size: Option<[u32; 2]>,
     /// Diameter of the lens, in scene units: wider blurs more, 0 is a pinhole [default: the scene's]
     #[arg(long, value_name = "L", allow_negative_numbers = true)]
     lens_diameter: Option<f32>,
@@ -173,12 +174,12 @@ impl SettingsArgs {
         self.resolve(DEFAULT_SAMPLES)
     }
 
-    /// The settings that the viewer starts with, and the window's size if one was asked for.
+    /// The settings that the viewer starts with.
     ///
     /// # Errors
     /// Of the scene, or [`crate::error::Error::OutOfRange`].
-    pub fn of_window(&self) -> Result<(Settings, Option<[u32; 2]>)> {
-        Ok((self.resolve(DEFAULT_VIEW_SAMPLES)?, self.size))
+    pub fn of_window(&self) -> Result<Settings> {
+        self.resolve(DEFAULT_VIEW_SAMPLES)
     }
 
     /// The settings of small pictures to verify a device with: of the scene that was named, or of

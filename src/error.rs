@@ -95,6 +95,14 @@ pub enum Error {
         /// What is wrong there, and what would be right.
         message: String,
     },
+    /// A mesh cannot be used, and no one line of its file is to blame.
+    #[error("{file}: {message}")]
+    Mesh {
+        /// The mesh's file.
+        file: String,
+        /// What is wrong, and what to do.
+        message: String,
+    },
     /// A setting is out of its range.
     #[error("{0}")]
     OutOfRange(String),

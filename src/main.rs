@@ -20,7 +20,7 @@ fn run(command: Command) -> Result<()> {
     match command {
         Command::View(args) => view(&args),
         Command::Render(RenderArgs { settings, output, stats, device, quiet }) => {
-            let settings = settings.of_file()?;
+            let settings = output::load(quiet, || settings.of_file())?;
             output::render(&output::Job { settings, output, stats, device: device.choice(), quiet })
         }
         Command::Verify(args) => {
@@ -33,8 +33,13 @@ fn run(command: Command) -> Result<()> {
 
 fn view(args: &ViewArgs) -> Result<()> {
     let (scene, device) = (args.settings.scene().to_owned(), args.device.choice());
-    let (settings, size) = args.settings.of_window()?;
-    match app::run(app::Options { settings, size, scene: scene.clone(), device: device.clone() }) {
+    let settings = output::load(false, || args.settings.of_window())?;
+    match app::run(app::Options {
+        settings,
+        size: args.settings.size,
+        scene: scene.clone(),
+        device: device.clone(),
+    }) {
         Err(Error::NoDisplay(why)) => output::render_instead(args.settings.of_file()?, &scene, device, &why),
         outcome => outcome,
     }

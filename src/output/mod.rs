@@ -9,6 +9,7 @@ mod stats;
 pub use file::{PendingFile, PictureFormat, write_exr, write_png};
 pub use headless::{Job, render, render_instead};
 pub use list::{list_devices, list_scenes};
+pub use progress::{load, loading_line};
 pub use stats::Stats;
 
 use crate::error::{Error, Result};

@@ -1,11 +1,38 @@
 //! How far a rendering is: a bar on a terminal, plain lines elsewhere.
 
-use indicatif::{ProgressBar, ProgressStyle};
+use crate::error::Result;
+use crate::settings::Settings;
+use indicatif::{HumanCount, ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
 /// Between plain lines.
 const LINE_EVERY: Duration = Duration::from_secs(5);
+
+/// Loading that takes no longer needs no word.
+const LOADING_UNSAID: Duration = Duration::from_millis(500);
+
+/// Loads a scene, and says on standard error what took a while.
+///
+/// # Errors
+/// Those of `load`.
+pub fn load(quiet: bool, load: impl FnOnce() -> Result<Settings>) -> Result<Settings> {
+    let started = Instant::now();
+    let settings = load()?;
+    let scene = &settings.estimator.scene;
+    let line = loading_line(&scene.name, scene.triangles.len() as u64, started.elapsed());
+    if let Some(line) = line.filter(|_| !quiet) {
+        eprintln!("{line}");
+    }
+    Ok(settings)
+}
+
+/// What there is to say of a scene that took so long to load.
+pub fn loading_line(scene: &str, triangles: u64, took: Duration) -> Option<String> {
+    let seconds = took.as_secs_f64();
+    (took >= LOADING_UNSAID)
+        .then(|| format!("{scene}: {} triangles read in {seconds:.1} s", HumanCount(triangles)))
+}
 
 /// Shows progress on standard error.
 pub(super) struct ProgressDisplay {

@@ -9,8 +9,11 @@ use glam::{DMat3, DVec3};
 pub struct Hit {
     /// Along the ray.
     pub distance: f64,
-    /// Unit length, on the side the ray comes from.
+    /// Across the surface. Unit length, on the side the ray comes from.
     pub normal: DVec3,
+    /// What light and mirrors see: [`Triangle::normals`] interpolated, elsewhere `normal`. Unit length,
+    /// within a right angle of `normal`.
+    pub shading_normal: DVec3,
     /// Index into [`Scene::materials`].
     pub material: u32,
 }
@@ -21,18 +24,27 @@ pub fn intersect(scene: &Scene, ray: Ray, least: f64) -> Option<Hit> {
     let boxes = scene.boxes.iter().map(|of| (aabb(&of.shape, ray, least), of.material));
     let triangles = scene.triangles.iter().map(|of| (triangle(&of.shape, ray, least), of.material));
     let planes = scene.planes.iter().map(|of| (plane(&of.shape, ray, least), of.material));
-    let hits = spheres.chain(boxes).chain(triangles).chain(planes).filter_map(|(hit, material)| {
-        let (distance, outward) = hit?;
-        let normal = if outward.dot(ray.direction) > 0.0 { -outward } else { outward };
-        Some(Hit { distance, normal, material })
+    let flat = |(crossing, material): (Option<Crossing>, u32)| {
+        let (distance, normal) = crossing?;
+        Some((distance, normal, normal, material))
+    };
+    let smooth = triangles.filter_map(|(crossing, material)| {
+        let (distance, normal, shading_normal) = crossing?;
+        Some((distance, normal, shading_normal, material))
+    });
+    let crossings = spheres.chain(boxes).chain(planes).filter_map(flat).chain(smooth);
+    let hits = crossings.map(|(distance, outward, shading, material)| {
+        let side = if outward.dot(ray.direction) > 0.0 { -1.0 } else { 1.0 };
+        Hit { distance, normal: side * outward, shading_normal: side * shading, material }
     });
     hits.min_by(|a, b| a.distance.total_cmp(&b.distance))
 }
 
-type Crossing = Option<(f64, DVec3)>;
+/// Distance and normal.
+type Crossing = (f64, DVec3);
 
 /// |o + t d - c|^2 = r^2.
-fn sphere(sphere: &Sphere, ray: Ray, least: f64) -> Crossing {
+fn sphere(sphere: &Sphere, ray: Ray, least: f64) -> Option<Crossing> {
     let center = sphere.center.as_dvec3();
     let radius = f64::from(sphere.radius);
     let from_center = ray.origin - center;
@@ -48,10 +60,10 @@ fn sphere(sphere: &Sphere, ray: Ray, least: f64) -> Crossing {
 }
 
 /// The six faces one by one.
-fn aabb(aabb: &Aabb, ray: Ray, least: f64) -> Crossing {
+fn aabb(aabb: &Aabb, ray: Ray, least: f64) -> Option<Crossing> {
     let (lower, upper) = (aabb.lower.as_dvec3().to_array(), aabb.upper.as_dvec3().to_array());
     let (origin, direction) = (ray.origin.to_array(), ray.direction.to_array());
-    let mut nearest: Crossing = None;
+    let mut nearest: Option<Crossing> = None;
     for axis in 0..3 {
         for (face, sign) in [(lower[axis], -1.0), (upper[axis], 1.0)] {
             let distance = (face - origin[axis]) / direction[axis];
@@ -73,8 +85,8 @@ fn aabb(aabb: &Aabb, ray: Ray, least: f64) -> Crossing {
     nearest
 }
 
-/// o + t d = a + b1 (b - a) + b2 (c - a), by Cramer's rule.
-fn triangle(triangle: &Triangle, ray: Ray, least: f64) -> Crossing {
+/// o + t d = a + b1 (b - a) + b2 (c - a), by Cramer's rule. Distance, normal, shading normal.
+fn triangle(triangle: &Triangle, ray: Ray, least: f64) -> Option<(f64, DVec3, DVec3)> {
     let [a, b, c] = triangle.vertices.map(|vertex| vertex.as_dvec3());
     let (edge1, edge2) = (b - a, c - a);
     let matrix = DMat3::from_cols(edge1, edge2, -ray.direction);
@@ -83,11 +95,23 @@ fn triangle(triangle: &Triangle, ray: Ray, least: f64) -> Crossing {
     }
     let [b1, b2, distance] = (matrix.inverse() * (ray.origin - a)).to_array();
     let inside = b1 >= 0.0 && b2 >= 0.0 && b1 + b2 <= 1.0;
-    (inside && distance > least).then(|| (distance, edge1.cross(edge2).normalize()))
+    (inside && distance > least).then(|| {
+        let normal = edge1.cross(edge2).normalize();
+        (distance, normal, shading_normal(triangle, b1, b2, normal))
+    })
+}
+
+fn shading_normal(triangle: &Triangle, b1: f64, b2: f64, normal: DVec3) -> DVec3 {
+    let Some(corners) = triangle.normals else {
+        return normal;
+    };
+    let [n0, n1, n2] = corners.map(|corner| corner.as_dvec3());
+    let mean = ((1.0 - b1 - b2) * n0 + b1 * n1 + b2 * n2).try_normalize().unwrap_or(normal);
+    if mean.dot(normal) < 0.0 { -mean } else { mean }
 }
 
 /// n . (o + t d - p) = 0.
-fn plane(plane: &Plane, ray: Ray, least: f64) -> Crossing {
+fn plane(plane: &Plane, ray: Ray, least: f64) -> Option<Crossing> {
     let normal = plane.normal.as_dvec3().normalize();
     let distance = normal.dot(plane.point.as_dvec3() - ray.origin) / normal.dot(ray.direction);
     (distance.is_finite() && distance > least).then_some((distance, normal))

@@ -1,7 +1,7 @@
 //! Radiance along a ray: K. Suffern, chapters 14 to 16 and 24.
 
 use super::Ray;
-use super::intersect::intersect;
+use super::intersect::{Hit, intersect};
 use crate::scene::{LightKind, Material, Scene};
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -22,13 +22,19 @@ fn radiance_beyond(scene: &Scene, ray: Ray, least: f64, bounces: u32) -> DVec3 {
     let material = &scene.materials[hit.material as usize];
     let position = ray.origin + hit.distance * ray.direction;
     let least = LEAST_DISTANCE * position.abs().max_element().max(hit.distance);
-    let mut sum = emitted_and_reflected(scene, material, position, hit.normal, -ray.direction, least);
+    let mut sum = emitted_and_reflected(scene, material, position, &hit, -ray.direction, least);
     if bounces > 0 && material.reflectance != glam::Vec3::ZERO {
-        let direction = ray.direction - 2.0 * ray.direction.dot(hit.normal) * hit.normal;
+        let direction = mirrored(&hit, ray.direction);
         let mirrored = Ray { origin: position, direction };
         sum += material.reflectance.as_dvec3() * radiance_beyond(scene, mirrored, least, bounces - 1);
     }
     sum
+}
+
+/// Mirrored by the shading normal; what would then enter the surface is mirrored out of it again.
+fn mirrored(hit: &Hit, direction: DVec3) -> DVec3 {
+    let mirrored = direction - 2.0 * direction.dot(hit.shading_normal) * hit.shading_normal;
+    mirrored - 2.0 * mirrored.dot(hit.normal).min(0.0) * hit.normal
 }
 
 fn background(scene: &Scene, direction: DVec3) -> DVec3 {
@@ -41,7 +47,7 @@ fn emitted_and_reflected(
     scene: &Scene,
     material: &Material,
     position: DVec3,
-    normal: DVec3,
+    hit: &Hit,
     to_viewer: DVec3,
     least: f64,
 ) -> DVec3 {
@@ -55,16 +61,17 @@ fn emitted_and_reflected(
                 (path.normalize(), path.length())
             }
         };
-        let cosine = normal.dot(to_light);
+        let cosine = hit.shading_normal.dot(to_light);
+        let behind = hit.normal.dot(to_light) <= 0.0;
         let shadow_ray = Ray { origin: position, direction: to_light };
         let in_shadow = || {
             let blocker = intersect(scene, shadow_ray, least);
             light.shadows && blocker.is_some_and(|hit| hit.distance < light_distance)
         };
-        if cosine <= 0.0 || in_shadow() {
+        if cosine <= 0.0 || behind || in_shadow() {
             continue;
         }
-        let mirrored = 2.0 * cosine * normal - to_light;
+        let mirrored = 2.0 * cosine * hit.shading_normal - to_light;
         let highlight = mirrored.dot(to_viewer);
         let gloss = if material.ks > 0.0 && highlight > 0.0 {
             f64::from(material.ks) * highlight.powf(f64::from(material.exponent))

@@ -1,7 +1,8 @@
 //! From SCENE on the command line to a [`Scene`]: names, files, and errors with a line.
 
 use super::format::SceneFile;
-use super::{BUILTINS, Scene};
+use super::mesh::Mesh;
+use super::{BUILTINS, Scene, stage};
 use crate::error::{Error, Result};
 use std::ops::Range;
 use std::path::Path;
@@ -12,22 +13,28 @@ pub(super) struct Fault {
     pub(super) message: String,
 }
 
-/// Loads a built-in by its name, or a `.toml` file by its path.
+/// Loads a built-in by its name, or a `.toml` scene or an `.obj` mesh by its path. A mesh is shown on a
+/// ground, framed, lit and focused on its nearest point.
 ///
 /// # Errors
-/// [`Error::UnknownScene`] with near names, [`Error::Read`], or [`Error::Scene`] with file and line.
+/// [`Error::UnknownScene`] with near names, [`Error::Read`], [`Error::Scene`] with file and line, or
+/// [`Error::Mesh`].
 pub fn load(scene: &str) -> Result<Scene> {
     if let Some(builtin) = BUILTINS.iter().find(|builtin| builtin.name == scene) {
         return parse(builtin.name, builtin.name, builtin.toml);
     }
     let path = Path::new(scene);
-    if path.extension().is_none_or(|extension| extension != "toml") {
-        return Err(unknown(scene));
+    match path.extension() {
+        Some(extension) if extension == "toml" => {
+            let read = std::fs::read_to_string(path);
+            let text = read.map_err(|source| Error::Read { path: path.to_path_buf(), source })?;
+            parse(&path.file_stem().unwrap_or_default().to_string_lossy(), scene, &text)
+        }
+        Some(extension) if extension.eq_ignore_ascii_case("obj") => {
+            stage::around(&Mesh::read(path)?, &path.file_name().unwrap_or_default().to_string_lossy())
+        }
+        _ => Err(unknown(scene)),
     }
-    let text =
-        std::fs::read_to_string(path).map_err(|source| Error::Read { path: path.to_path_buf(), source })?;
-    let name = path.file_stem().unwrap_or_default().to_string_lossy();
-    parse(&name, scene, &text)
 }
 
 fn parse(name: &str, file: &str, text: &str) -> Result<Scene> {
@@ -40,7 +47,8 @@ fn parse(name: &str, file: &str, text: &str) -> Result<Scene> {
         let message = error.message().replace('\n', "; ");
         at(error.span().unwrap_or(0..0), message)
     })?;
-    tables.into_scene(name).map_err(|fault| at(fault.span, fault.message))
+    let folder = Path::new(file).parent().unwrap_or(Path::new(""));
+    tables.into_scene(name, folder).map_err(|fault| at(fault.span, fault.message))
 }
 
 fn unknown(scene: &str) -> Error {
@@ -48,7 +56,10 @@ fn unknown(scene: &str) -> Error {
     let near: Vec<&str> =
         names().filter(|name| name.contains(scene) || strsim::jaro_winkler(name, scene) > 0.8).collect();
     let hint = if near.is_empty() {
-        format!("the built-in ones are {}, or give a .toml file", names().collect::<Vec<_>>().join(", "))
+        format!(
+            "the built-in ones are {}, or give a .toml scene or an .obj mesh",
+            names().collect::<Vec<_>>().join(", ")
+        )
     } else {
         format!("did you mean {}?", near.join(" or "))
     };

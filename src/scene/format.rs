@@ -3,12 +3,14 @@
 
 use super::file::Fault;
 use super::material_format::{LightColor, MaterialList, MatteTable, MirrorTable, Named, PhongTable, white};
+use super::mesh::{Mesh, Placement};
 use super::number::{Count, Extent, NonNegative, Positive, Rgb, Vector};
 use super::{
     Aabb, Background, Camera, Lens, Light, LightKind, Plane, Scene, Shaded, Sphere, Triangle, VFOV_DEGREES,
 };
 use glam::Vec3;
 use serde::Deserialize;
+use std::path::Path;
 use toml::Spanned;
 
 #[derive(Deserialize)]
@@ -43,6 +45,8 @@ pub(super) struct SceneFile {
     triangle: Vec<TriangleTable>,
     #[serde(default)]
     plane: Vec<PlaneTable>,
+    #[serde(default)]
+    mesh: Vec<MeshTable>,
 }
 
 #[derive(Deserialize)]
@@ -120,6 +124,19 @@ struct PlaneTable {
     material: Spanned<String>,
 }
 
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MeshTable {
+    file: Spanned<String>,
+    material: Option<Spanned<String>>,
+    #[serde(default = "one")]
+    scale: Positive,
+    #[serde(default = "zero")]
+    rotate_degrees: Vector,
+    #[serde(default = "zero")]
+    position: Vector,
+}
+
 fn default_size() -> [Extent; 2] {
     [Extent(1280), Extent(720)]
 }
@@ -132,12 +149,21 @@ fn upwards() -> Vector {
     Vector(Vec3::Y)
 }
 
+fn one() -> Positive {
+    Positive(1.0)
+}
+
+fn zero() -> Vector {
+    Vector(Vec3::ZERO)
+}
+
 fn yes() -> bool {
     true
 }
 
 impl SceneFile {
-    pub(super) fn into_scene(self, name: &str) -> Result<Scene, Fault> {
+    /// Files that the scene names lie in `folder`, unless their paths say otherwise.
+    pub(super) fn into_scene(self, name: &str, folder: &Path) -> Result<Scene, Fault> {
         let size = [self.size[0].0, self.size[1].0];
         let (camera, lens) = camera(&self.camera, size)?;
         let background = background(self.background.as_ref())?;
@@ -184,14 +210,21 @@ impl SceneFile {
                 return Err(fault(&table.vertices, "the three vertices lie on one line"));
             }
             let material = list.find(&table.material)?;
-            scene.triangles.push(Shaded { shape: Triangle { vertices }, material });
+            scene.triangles.push(Shaded { shape: Triangle { vertices, normals: None }, material });
         }
         for table in &self.plane {
             let shape = Plane { point: table.point.0, normal: nonzero(&table.normal)? };
             let material = list.find(&table.material)?;
             scene.planes.push(Shaded { shape, material });
         }
+        let of_mesh = |table: &MeshTable| table.material.as_ref().map(|name| list.find(name)).transpose();
+        let of_meshes: Vec<Option<u32>> = self.mesh.iter().map(of_mesh).collect::<Result<_, _>>()?;
         scene.materials = list.materials;
+        for (table, material) in self.mesh.iter().zip(of_meshes) {
+            table
+                .add_to(&mut scene, folder, material)
+                .map_err(|error| fault(&table.file, &error.to_string()))?;
+        }
         Ok(scene)
     }
 
@@ -212,6 +245,14 @@ impl SceneFile {
             });
         }
         Ok(lights)
+    }
+}
+
+impl MeshTable {
+    fn add_to(&self, scene: &mut Scene, folder: &Path, material: Option<u32>) -> crate::error::Result<()> {
+        let mesh = Mesh::read(&folder.join(self.file.get_ref()))?;
+        let (angles, position) = (self.rotate_degrees.0.as_dvec3(), self.position.0.as_dvec3());
+        mesh.add_to(scene, &Placement::new(self.scale.f64(), angles, position), material)
     }
 }
 

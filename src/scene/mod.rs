@@ -7,8 +7,11 @@ mod format;
 mod light;
 mod material;
 mod material_format;
+mod mesh;
 mod number;
+mod obj;
 mod shape;
+mod stage;
 
 pub use builtin::{BUILTINS, Builtin};
 pub use camera::{Camera, Frame, Lens};

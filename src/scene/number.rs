@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 #[derive(Deserialize)]
 #[serde(try_from = "f64")]
-pub(super) struct Positive(f64);
+pub(super) struct Positive(pub(super) f64);
 
 #[derive(Deserialize, Default)]
 #[serde(try_from = "f64")]

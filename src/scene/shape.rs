@@ -34,6 +34,11 @@ pub struct Aabb {
 pub struct Triangle {
     /// Its corners.
     pub vertices: [Vec3; 3],
+    /// Unit normals at the corners, for shading; none: flat. At barycentric `(b1, b2)` the shading
+    /// normal is `normalize((1 - b1 - b2) n0 + b1 n1 + b2 n2)`, or the geometric one where that sum is
+    /// zero, turned to the side of the geometric normal as wound; then both are turned to the side that
+    /// the ray comes from, by the geometric normal.
+    pub normals: Option<[Vec3; 3]>,
 }
 
 /// An infinite plane, seen from both sides.

@@ -1,0 +1,128 @@
+//! A scene around a lone mesh: on a ground, framed, lit, and focused on its nearest point.
+
+use super::mesh::{Mesh, Placement};
+use super::{Background, Camera, Checker, Lens, Light, LightKind, Material, Plane, Scene, Shaded};
+use crate::error::Result;
+use glam::{DVec3, Vec3};
+use std::ops::RangeInclusive;
+
+const SIZE: [u32; 2] = [1280, 720];
+const VFOV_DEGREES: f64 = 34.0;
+/// From the mesh to the eye: a three-quarter view from a little above, which shows the horizon.
+const TO_EYE: DVec3 = DVec3::new(0.52, 0.2, 0.8);
+/// The box around the mesh fills this share of the picture's width or height, at most.
+const FILL: f64 = 0.78;
+/// The blur of the mesh's farthest point, as a share of the picture's height.
+const FAR_BLUR: f64 = 0.025;
+/// The widest lens, as a share of the focal distance: meshes without depth would ask for any.
+const WIDEST_LENS: f64 = 0.08;
+/// Edge of the ground's squares, as a share of the box's diagonal.
+const SQUARE: f64 = 0.2;
+/// The ground lies below the mesh by this share of the diagonal, for a flat mesh would else be in it.
+const GAP: f64 = 1e-3;
+/// Sizes of a mesh: the lengths of the scene around it stay within MIN_LENGTH and MAX_LENGTH by far.
+const DIAGONALS: RangeInclusive<f64> = 1e-4..=1e7;
+
+/// The scene. Its lengths are those of the mesh's file; the mesh is moved onto the ground.
+///
+/// # Errors
+/// Those of [`Mesh::add_to`]; `Error::Mesh` for a mesh so small or large that f32 cannot show it.
+pub(super) fn around(mesh: &Mesh, name: &str) -> Result<Scene> {
+    let [lower, upper] = mesh.bounds();
+    let extent = upper - lower;
+    let diagonal = extent.length();
+    if !DIAGONALS.contains(&diagonal) {
+        let (low, high) = (DIAGONALS.start(), DIAGONALS.end());
+        let message = format!(
+            "it is {diagonal:.1e} across, but must be from {low:e} to {high:e}; put it into a scene file with a \
+             scale"
+        );
+        return Err(mesh.fault(message));
+    }
+    // In the middle of a layer of the ground's checker, no rounding changes its colours.
+    let square = SQUARE * diagonal;
+    let ground = 0.5 * square;
+    let foot = DVec3::new(lower.x + 0.5 * extent.x, lower.y, lower.z + 0.5 * extent.z);
+    let lowest = ground + GAP * diagonal;
+    let placement = Placement::new(1.0, DVec3::ZERO, DVec3::Y * lowest - foot);
+
+    let camera = camera(DVec3::Y * (lowest + 0.5 * extent.y), 0.5 * extent);
+    let lens = Lens { diameter: 0.0, focal_distance: 1.0 };
+    let mut scene = Scene {
+        name: name.to_owned(),
+        camera,
+        lens,
+        size: SIZE,
+        max_bounces: 5,
+        background: Background { horizon: Vec3::new(0.92, 0.9, 0.87), zenith: Vec3::new(0.24, 0.44, 0.78) },
+        ambient: Vec3::new(0.24, 0.27, 0.32),
+        lights: lights(),
+        materials: vec![floor(square as f32)],
+        spheres: Vec::new(),
+        boxes: Vec::new(),
+        triangles: Vec::new(),
+        planes: vec![Shaded {
+            shape: Plane { point: Vec3::Y * ground as f32, normal: Vec3::Y },
+            material: 0,
+        }],
+    };
+    mesh.add_to(&mut scene, &placement, None)?;
+    scene.lens = lens_for(&scene);
+    Ok(scene)
+}
+
+/// Looks at a box of this centre and half extent from where all its corners are in the picture.
+fn camera(center: DVec3, half: DVec3) -> Camera {
+    let to_eye = TO_EYE.normalize();
+    let toward = |distance: f64| Camera {
+        eye: (center + distance * to_eye).as_vec3(),
+        look_at: center.as_vec3(),
+        up: Vec3::Y,
+        vfov_radians: VFOV_DEGREES.to_radians(),
+    };
+    let diagonal = 2.0 * half.length();
+    let frame = toward(diagonal).frame();
+    // Slopes of the lines of sight that end at the edges of what may be filled.
+    let highest = FILL * (0.5 * VFOV_DEGREES.to_radians()).tan();
+    let widest = highest * f64::from(SIZE[0]) / f64::from(SIZE[1]);
+    let distance = (0..8).map(|corner| {
+        let side = |bit: u32| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
+        let corner = half * DVec3::new(side(0), side(1), side(2));
+        let aside = (corner.dot(frame.u()).abs() / widest).max(corner.dot(frame.v()).abs() / highest);
+        corner.dot(frame.w()) + aside.max(0.1 * diagonal)
+    });
+    toward(distance.fold(0.0, f64::max))
+}
+
+/// Focused on the nearest vertex along the axis, and as wide as blurs the farthest one clearly.
+fn lens_for(scene: &Scene) -> Lens {
+    let frame = scene.camera.frame();
+    let vertices = scene.triangles.iter().flat_map(|triangle| triangle.shape.vertices);
+    let depths = vertices.map(|vertex| frame.axial_depth(scene.camera.eye, vertex));
+    let (near, far) =
+        depths.fold((f64::INFINITY, 0.0), |(near, far): (f64, f64), depth| (near.min(depth), far.max(depth)));
+    // The circle of confusion D (far - near) / (far near) k, and k = height / 2 / tan(vfov / 2).
+    let blur_of_one = (far - near) / far * 0.5 / (0.5 * scene.camera.vfov_radians).tan();
+    let ratio = (FAR_BLUR / blur_of_one).min(WIDEST_LENS);
+    Lens { diameter: (ratio * near) as f32, focal_distance: near as f32 }
+}
+
+/// A warm key light with shadows from the left, a cool fill light without from the right.
+fn lights() -> Vec<Light> {
+    let light = |direction: [f32; 3], radiance: [f32; 3], shadows| Light {
+        kind: LightKind::Directional(direction.into()),
+        radiance: radiance.into(),
+        shadows,
+    };
+    vec![light([-0.5, 1.0, 0.65], [2.5, 2.35, 2.1], true), light([1.0, 0.35, 0.3], [0.4, 0.46, 0.55], false)]
+}
+
+fn floor(square: f32) -> Material {
+    Material {
+        color: Vec3::new(0.62, 0.6, 0.56),
+        checker: Some(Checker { size: square, odd_color: Vec3::new(0.36, 0.37, 0.39) }),
+        ka: 1.0,
+        kd: 1.0,
+        ..Material::default()
+    }
+}
