@@ -20,6 +20,7 @@ struct Hit {
     uint material;
     vec3 normal;
     float curvature;
+    vec3 shading_normal; // zero: the surface's own
 };
 
 // The quadratic with the discriminant taken from the closest approach, which keeps its digits for
@@ -51,8 +52,8 @@ float intersect_box(Ray ray, vec3 inverse_direction, Box box, out vec3 normal) {
     return near <= far && far > 0.0 ? distance : MISS;
 }
 
-// T. Moeller and B. Trumbore, JGT 2(1), 1997, both sides.
-float intersect_triangle(Ray ray, Triangle triangle) {
+// T. Moeller and B. Trumbore, JGT 2(1), 1997, both sides. barycentric belongs to the second and third vertex.
+float intersect_triangle(Ray ray, Triangle triangle, out vec2 barycentric) {
     vec3 h = cross(ray.direction, triangle.edge2);
     float inverse_determinant = 1.0 / dot(triangle.edge1, h);
     vec3 s = ray.origin - triangle.vertex;
@@ -60,6 +61,7 @@ float intersect_triangle(Ray ray, Triangle triangle) {
     vec3 q = cross(s, triangle.edge1);
     float b2 = dot(ray.direction, q) * inverse_determinant;
     float distance = dot(triangle.edge2, q) * inverse_determinant;
+    barycentric = vec2(b1, b2);
     // Written so that a NaN from a ray in the triangle's plane is a miss.
     return b1 >= 0.0 && b2 >= 0.0 && b1 + b2 <= 1.0 && distance > 0.0 && distance < MISS ? distance : MISS;
 }
@@ -77,14 +79,19 @@ vec3 safe_inverse(vec3 direction) {
 
 void keep_nearer(inout Hit hit, float distance, uint shape, vec3 normal, float curvature) {
     if (distance < hit.distance) {
-        hit = Hit(distance, get_material_of_shape(shape), normal, curvature);
+        hit = Hit(distance, get_material_of_shape(shape), normal, curvature, vec3(0.0));
     }
 }
 
-// The nearest hit, or one with distance MISS.
-Hit intersect_scene(Ray ray) {
-    Hit hit = Hit(MISS, 0u, vec3(0.0), 0.0);
+#include "bvh.glsl"
+
+// The nearest hit, or one with distance MISS. given_up: the search for it took too long.
+Hit intersect_scene(Ray ray, inout bool given_up) {
+    Hit hit = Hit(MISS, 0u, vec3(0.0), 0.0, vec3(0.0));
     vec3 inverse_direction = safe_inverse(ray.direction);
+    if (has_tree()) {
+        hit = intersect_tree(ray, inverse_direction, given_up);
+    }
     uint shape = 0u;
     [[unroll]] for (uint i = 0u; i < SPHERE_COUNT; ++i, ++shape) {
         keep_nearer(hit, intersect_sphere(ray, get_sphere(i)), shape, -get_sphere(i).center, 1.0);
@@ -96,9 +103,10 @@ Hit intersect_scene(Ray ray) {
     }
     [[unroll]] for (uint i = 0u; i < TRIANGLE_COUNT; ++i, ++shape) {
         vec3 normal = cross(get_triangle(i).edge1, get_triangle(i).edge2);
-        keep_nearer(hit, intersect_triangle(ray, get_triangle(i)), shape, normal, 0.0);
+        vec2 barycentric;
+        keep_nearer(hit, intersect_triangle(ray, get_triangle(i), barycentric), shape, normal, 0.0);
     }
-    [[unroll]] for (uint i = 0u; i < PLANE_COUNT; ++i, ++shape) {
+    for (uint i = 0u; i < PLANE_COUNT; ++i, ++shape) {
         keep_nearer(hit, intersect_plane(ray, get_plane(i)), shape, get_plane(i).normal, 0.0);
     }
     return hit;
@@ -110,9 +118,13 @@ vec3 surface_normal(Hit hit, vec3 position) {
 }
 
 // Whether anything lies on the ray nearer than limit.
-bool occluded(Ray ray, float limit) {
+bool occluded(Ray ray, float limit, inout bool given_up) {
     float nearest = MISS;
     vec3 inverse_direction = safe_inverse(ray.direction);
+    if (has_tree()) {
+        uint shape;
+        nearest = search_tree(ray, inverse_direction, limit, true, shape, given_up);
+    }
     [[unroll]] for (uint i = 0u; i < SPHERE_COUNT; ++i) {
         nearest = smaller(nearest, intersect_sphere(ray, get_sphere(i)));
     }
@@ -121,9 +133,10 @@ bool occluded(Ray ray, float limit) {
         nearest = smaller(nearest, intersect_box(ray, inverse_direction, get_box(i), normal));
     }
     [[unroll]] for (uint i = 0u; i < TRIANGLE_COUNT; ++i) {
-        nearest = smaller(nearest, intersect_triangle(ray, get_triangle(i)));
+        vec2 barycentric;
+        nearest = smaller(nearest, intersect_triangle(ray, get_triangle(i), barycentric));
     }
-    [[unroll]] for (uint i = 0u; i < PLANE_COUNT; ++i) {
+    for (uint i = 0u; i < PLANE_COUNT; ++i) {
         nearest = smaller(nearest, intersect_plane(ray, get_plane(i)));
     }
     return nearest < limit;

@@ -29,68 +29,93 @@ vec3 background(vec3 direction) {
     return sky.horizon + (sky.zenith - sky.horizon) * (height * (2.0 - height));
 }
 
+// A point of a surface. Both normals are of unit length, and on the side that the ray comes from.
+struct SurfacePoint {
+    vec3 position;
+    vec3 normal;
+    vec3 shading_normal;
+    vec3 lifted; // the position, moved off the surface
+};
+
+// What a light adds at a point towards -ray.direction.
+vec3 reflected_light(Material material, vec3 color, Light light, bool casts_shadows, Ray ray, SurfacePoint at, inout uint rays, inout bool given_up) {
+    vec3 to_light = light.position_or_direction;
+    float limit = MISS;
+    if (light.is_directional == 0u) {
+        to_light -= at.position;
+        limit = length(to_light);
+        to_light /= limit;
+    }
+    float cosine = dot(at.shading_normal, to_light);
+    if (cosine <= 0.0 || dot(at.normal, to_light) <= 0.0) {
+        return vec3(0.0);
+    }
+    if (casts_shadows) {
+        ++rays;
+        if (occluded(Ray(at.lifted, to_light), limit, given_up)) {
+            return vec3(0.0);
+        }
+    }
+    vec3 reflected = 2.0 * cosine * at.shading_normal - to_light;
+    float highlight = larger(dot(reflected, -ray.direction), 0.0);
+    // pow(0, 0) is undefined.
+    float gloss = highlight > 0.0 ? material.ks * pow(highlight, material.exponent) : 0.0;
+    return (material.kd * INVERSE_PI * color + gloss) * light.radiance * cosine;
+}
+
 // Emission, ambient, and direct light with hard shadows, towards -ray.direction.
-vec3 shade(Material material, Ray ray, vec3 position, vec3 normal, float offset, inout uint rays) {
-    vec3 color = surface_color(material, position);
+vec3 shade(Material material, Ray ray, SurfacePoint at, inout uint rays, inout bool given_up) {
+    vec3 color = surface_color(material, at.position);
     vec3 sum = material.emission + material.ka * color * get_environment().ambient;
     if (material.kd == 0.0 && material.ks == 0.0) {
         return sum;
     }
-    [[unroll]] for (uint i = 0u; i < LIGHT_COUNT; ++i) {
-        Light light = get_light(i);
-        vec3 to_light = light.position_or_direction;
-        float limit = MISS;
-        if (light.is_directional == 0u) {
-            to_light -= position;
-            limit = length(to_light);
-            to_light /= limit;
-        }
-        float cosine = dot(normal, to_light);
-        if (cosine > 0.0) {
-            bool shadowed = false;
-            if (i < SHADOW_LIGHT_COUNT) {
-                ++rays;
-                shadowed = occluded(Ray(position + offset * normal, to_light), limit);
-            }
-            if (!shadowed) {
-                vec3 reflected = 2.0 * cosine * normal - to_light;
-                float highlight = larger(dot(reflected, -ray.direction), 0.0);
-                // pow(0, 0) is undefined.
-                float gloss = highlight > 0.0 ? material.ks * pow(highlight, material.exponent) : 0.0;
-                sum += (material.kd * INVERSE_PI * color + gloss) * light.radiance * cosine;
-            }
-        }
+    for (uint i = 0u; i < SHADOW_LIGHT_COUNT; ++i) {
+        sum += reflected_light(material, color, get_light(i), true, ray, at, rays, given_up);
+    }
+    for (uint i = SHADOW_LIGHT_COUNT; i < LIGHT_COUNT; ++i) {
+        sum += reflected_light(material, color, get_light(i), false, ray, at, rays, given_up);
     }
     return sum;
 }
 
 // The radiance that arrives along the ray: what the surface shows, plus its mirror image, followed
-// for at most max_bounces reflections. rays counts every ray traced, shadow rays among them.
+// for at most max_bounces reflections; infinite where a ray had to be given up. rays counts every ray
+// traced, shadow rays among them.
 vec3 radiance(Ray ray, uint max_bounces, inout uint rays) {
     vec3 sum = vec3(0.0);
     vec3 throughput = vec3(1.0);
+    bool given_up = false;
     for (uint bounce = 0u; bounce <= max_bounces; ++bounce) {
         ++rays;
-        Hit hit = intersect_scene(ray);
+        Hit hit = intersect_scene(ray, given_up);
         if (hit.distance >= MISS) {
             sum += throughput * background(ray.direction);
             break;
         }
-        vec3 position = ray.origin + hit.distance * ray.direction;
-        vec3 normal = surface_normal(hit, position);
-        normal = dot(normal, ray.direction) > 0.0 ? -normal : normal;
-        vec3 magnitude = abs(position);
+        SurfacePoint at;
+        at.position = ray.origin + hit.distance * ray.direction;
+        at.normal = surface_normal(hit, at.position);
+        at.shading_normal = hit.shading_normal == vec3(0.0) ? at.normal : hit.shading_normal;
+        bool from_behind = dot(at.normal, ray.direction) > 0.0;
+        at.normal = from_behind ? -at.normal : at.normal;
+        at.shading_normal = from_behind ? -at.shading_normal : at.shading_normal;
+        vec3 magnitude = abs(at.position);
         float offset = SURFACE_OFFSET * larger(hit.distance, larger(magnitude.x, larger(magnitude.y, magnitude.z)));
+        at.lifted = at.position + offset * at.normal;
 
         Material material = get_material(hit.material);
-        sum += throughput * shade(material, ray, position, normal, offset, rays);
+        sum += throughput * shade(material, ray, at, rays, given_up);
         throughput *= material.reflectance;
         if (throughput == vec3(0.0)) {
             break;
         }
-        ray = Ray(position + offset * normal, reflect(ray.direction, normal));
+        vec3 mirrored = reflect(ray.direction, at.shading_normal);
+        // What would enter the surface is mirrored out of it again.
+        mirrored -= 2.0 * smaller(dot(mirrored, at.normal), 0.0) * at.normal;
+        ray = Ray(at.lifted, mirrored);
     }
-    return sum;
+    return given_up ? vec3(uintBitsToFloat(0x7f800000u)) : sum;
 }
 
 #endif

@@ -3,15 +3,21 @@
 use crate::error::Result;
 use crate::gpu_types::{SceneData, TracePush};
 use crate::vulkan::{
-    Binding, BindingSet, Buffer, ComputePipeline, Device, Image, Recording, SOFTWARE, Shader, shader,
+    Binding, BindingSet, Buffer, ComputePipeline, Device, Image, Recording, SOFTWARE, Shader, TexelBuffer,
+    shader,
 };
 use std::sync::Arc;
 
 /// Pass 1. See `shaders/trace.comp`.
 pub struct Trace(ComputePipeline);
 
-/// More shapes than these are not copied: a shader has a loop over them for every ray, unrolled.
-const MOST_KEPT_SHAPES: usize = 128;
+/// With more shapes in lists, materials or lights than these the scene is not copied: what would be
+/// unrolled grows too long.
+const MOST_KEPT: usize = 64;
+
+/// What a ray may take on a software device: nodes visited and shapes tried. In a tree of a million
+/// triangles some dozens are usual. Were there no limit, nor could there be a safe batch.
+const MOST_TREE_STEPS: usize = 1024;
 
 /// The bits of a sample index, which the Sobol sequence goes through.
 const SAMPLER_LOOP_STEPS: u64 = 24;
@@ -19,6 +25,10 @@ const SAMPLER_LOOP_STEPS: u64 = 24;
 /// A scene on the device.
 pub struct SceneBuffers {
     buffers: [Arc<Buffer>; 8],
+    /// Nodes, shapes and normals of the tree.
+    tree: [Arc<TexelBuffer>; 3],
+    /// The tree's depth, the kinds in it, and the most steps that a ray can take in it.
+    tree_constants: [u32; 3],
     /// Spheres, boxes, triangles, planes, lights, lights that cast shadows, materials.
     counts: [u32; 7],
     /// Whether the shaders copy the scene before they start.
@@ -33,8 +43,15 @@ impl SceneBuffers {
     /// # Errors
     /// [`crate::error::Error::Memory`], or what Vulkan says.
     pub fn new(device: &Arc<Device>, scene: &SceneData) -> Result<Self> {
-        let shapes = scene.material_of_shape.len();
         let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
+        let (nodes, shapes, normals, depth, kinds) = match &scene.tree {
+            Some(tree) => (&*tree.nodes, &*tree.shapes, &*tree.normals, tree.depth, tree.kinds),
+            None => (&[][..], &[][..], &[][..], 0, 0),
+        };
+        let most_steps = if device.info().kind == SOFTWARE { MOST_TREE_STEPS } else { usize::MAX };
+        let steps = count((nodes.len() + shapes.len()).min(most_steps));
+        let few =
+            scene.material_of_shape.len().max(scene.materials.len()).max(scene.lights.len()) <= MOST_KEPT;
         Ok(Self {
             buffers: [
                 Arc::new(Buffer::upload(device, "spheres", &scene.spheres)?),
@@ -46,6 +63,12 @@ impl SceneBuffers {
                 Arc::new(Buffer::upload(device, "lights", &scene.lights)?),
                 Arc::new(Buffer::upload(device, "environment", &[scene.environment])?),
             ],
+            tree: [
+                Arc::new(TexelBuffer::upload(device, "nodes of the tree", nodes)?),
+                Arc::new(TexelBuffer::upload(device, "shapes of the tree", shapes)?),
+                Arc::new(TexelBuffer::upload(device, "normals", normals)?),
+            ],
+            tree_constants: [depth, kinds, steps],
             counts: [
                 count(scene.spheres.len()),
                 count(scene.boxes.len()),
@@ -55,7 +78,7 @@ impl SceneBuffers {
                 count(scene.shadow_lights),
                 count(scene.materials.len().max(1)),
             ],
-            kept: device.info().kind == SOFTWARE && shapes <= MOST_KEPT_SHAPES,
+            kept: device.info().kind == SOFTWARE && few,
             reflects: scene.materials.iter().any(|material| material.reflectance != [0.0; 3]),
         })
     }
@@ -69,7 +92,7 @@ impl SceneBuffers {
     /// over lights and reflections, and in the sampler.
     pub fn most_loop_steps(&self, max_bounces: u32) -> u64 {
         let [spheres, boxes, triangles, planes, lights, ..] = self.counts.map(u64::from);
-        let shapes = spheres + boxes + triangles + planes;
+        let shapes = spheres + boxes + triangles + planes + u64::from(self.tree_constants[2]);
         SAMPLER_LOOP_STEPS + u64::from(self.most_surfaces(max_bounces)) * (1 + shapes + lights * (1 + shapes))
     }
 
@@ -81,12 +104,17 @@ impl SceneBuffers {
     /// works on, and the scene's buffers.
     pub fn bindings(&self, front: [Binding; 2]) -> Vec<(u32, Binding)> {
         let scene = self.buffers.iter().map(|buffer| Binding::Buffer(Arc::clone(buffer)));
-        (0..).zip(front.into_iter().chain(scene)).collect()
+        let tree = self.tree.iter().map(|buffer| Binding::Texels(Arc::clone(buffer)));
+        (0..).zip(front.into_iter().chain(scene).chain(tree)).collect()
     }
 
     /// The specialization constants of `shaders/include/sampling.glsl` and `scene.glsl`.
     pub fn constants(&self, sampler: u32) -> Vec<u32> {
-        std::iter::once(sampler).chain(self.counts).chain([self.kept.into()]).collect()
+        std::iter::once(sampler)
+            .chain(self.counts)
+            .chain([self.kept.into()])
+            .chain(self.tree_constants)
+            .collect()
     }
 }
 

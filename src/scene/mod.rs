@@ -1,6 +1,7 @@
 //! What is rendered, as plain values. Nothing here knows of a GPU.
 
 mod builtin;
+mod bvh;
 mod camera;
 mod file;
 mod format;
@@ -14,6 +15,7 @@ mod shape;
 mod stage;
 
 pub use builtin::{BUILTINS, Builtin};
+pub use bvh::{Bounded, Bvh};
 pub use camera::{Camera, Frame, Lens};
 pub use file::load;
 pub use light::{Background, Light, LightKind};

@@ -46,6 +46,7 @@ pub struct Device {
     allocator: ManuallyDrop<Arc<Mutex<Allocator>>>,
     info: DeviceInfo,
     max_extent: u32,
+    max_texels: u32,
     pub(super) instance: Arc<Instance>,
 }
 
@@ -206,6 +207,7 @@ impl Device {
             timestamp_period: if timestamps { limits.timestamp_period } else { 0.0 },
             allocator: ManuallyDrop::new(Arc::new(Mutex::new(allocator))),
             max_extent: limits.max_image_dimension2_d,
+            max_texels: limits.max_texel_buffer_elements,
             info: info.clone(),
             instance: Arc::clone(instance),
             raw,
@@ -225,6 +227,11 @@ impl Device {
     /// The largest width and height of an image, in pixels.
     pub fn max_extent(&self) -> u32 {
         self.max_extent
+    }
+
+    /// The largest number of texels of a buffer.
+    pub(super) fn max_texels(&self) -> u32 {
+        self.max_texels
     }
 
     /// Waits until the device has nothing to do.

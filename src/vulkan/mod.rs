@@ -17,7 +17,7 @@ mod swapchain;
 mod timing;
 mod validation;
 
-pub use buffer::{Buffer, Residence};
+pub use buffer::{Buffer, Residence, TexelBuffer};
 pub use command::{Commands, Recording};
 pub use device::{Device, DeviceInfo, SOFTWARE};
 pub use image::Image;

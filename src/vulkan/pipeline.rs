@@ -1,6 +1,6 @@
 //! Compute pipelines, whose layout comes from the shader itself, and what is bound to them.
 
-use super::{Buffer, Device, Image, ResourceKind, ShaderInterface, check};
+use super::{Buffer, Device, Image, ResourceKind, ShaderInterface, TexelBuffer, check};
 use crate::error::Result;
 use ash::vk;
 use std::sync::Arc;
@@ -42,6 +42,8 @@ pub enum Binding {
     Buffer(Arc<Buffer>),
     /// A storage image.
     Image(Arc<Image>),
+    /// A buffer read as texels.
+    Texels(Arc<TexelBuffer>),
 }
 
 /// Resources bound to the places of one pipeline, which it keeps alive.
@@ -187,7 +189,7 @@ impl BindingSet {
             let of_kind = resources.iter().filter(|(_, resource)| resource.kind() == kind).count();
             u32::try_from(of_kind).expect("few bindings")
         };
-        let sizes: Vec<_> = [ResourceKind::Buffer, ResourceKind::Image]
+        let sizes: Vec<_> = [ResourceKind::Buffer, ResourceKind::Image, ResourceKind::Texels]
             .into_iter()
             .filter(|kind| count(*kind) > 0)
             .map(|kind| vk::DescriptorPoolSize { ty: kind.descriptor_type(), descriptor_count: count(kind) })
@@ -218,7 +220,7 @@ impl BindingSet {
             .dst_set(self.raw)
             .dst_binding(binding)
             .descriptor_type(resource.kind().descriptor_type());
-        let (buffer, image);
+        let (buffer, image, view);
         let write = match resource {
             Binding::Buffer(bound) => {
                 buffer = [vk::DescriptorBufferInfo::default().buffer(bound.raw).range(vk::WHOLE_SIZE)];
@@ -229,6 +231,10 @@ impl BindingSet {
                     .image_view(bound.view)
                     .image_layout(vk::ImageLayout::GENERAL)];
                 write.image_info(&image)
+            }
+            Binding::Texels(bound) => {
+                view = [bound.view];
+                write.texel_buffer_view(&view)
             }
         };
         // SAFETY: the set is new and not in use; the resource lives as long as it.
@@ -248,6 +254,7 @@ impl Binding {
         match self {
             Self::Buffer(_) => ResourceKind::Buffer,
             Self::Image(_) => ResourceKind::Image,
+            Self::Texels(_) => ResourceKind::Texels,
         }
     }
 }

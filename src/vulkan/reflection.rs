@@ -16,6 +16,8 @@ pub enum ResourceKind {
     Buffer,
     /// A storage image.
     Image,
+    /// A buffer read as texels of four u32.
+    Texels,
 }
 
 /// A struct of a shader: where its members lie, in bytes.
@@ -47,6 +49,7 @@ impl ResourceKind {
         match self {
             Self::Buffer => vk::DescriptorType::STORAGE_BUFFER,
             Self::Image => vk::DescriptorType::STORAGE_IMAGE,
+            Self::Texels => vk::DescriptorType::UNIFORM_TEXEL_BUFFER,
         }
     }
 }
@@ -86,6 +89,7 @@ impl ShaderInterface {
                 let kind = match desc_ty {
                     DescriptorType::StorageBuffer(_) => ResourceKind::Buffer,
                     DescriptorType::StorageImage(_) => ResourceKind::Image,
+                    DescriptorType::UniformTexelBuffer() => ResourceKind::Texels,
                     other => panic!("no use for {other:?}"),
                 };
                 self.resources.insert(desc_bind.bind(), kind);

@@ -30,8 +30,9 @@ void main() {
     if (i < inputs.length()) {
         In given = inputs[i];
         Ray ray = Ray(given.origin, given.direction);
-        Hit hit = intersect_scene(ray);
+        bool given_up = false;
+        Hit hit = intersect_scene(ray, given_up);
         vec3 normal = surface_normal(hit, ray.origin + hit.distance * ray.direction);
-        outputs[i] = Out(normal, hit.distance, hit.material, uint(occluded(ray, given.limit)));
+        outputs[i] = Out(normal, hit.distance, hit.material, uint(occluded(ray, given.limit, given_up)));
     }
 }

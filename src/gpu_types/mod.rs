@@ -2,10 +2,12 @@
 //! offsets against the compiled shaders.
 #![allow(missing_docs, reason = "the fields are documented where the shaders declare them")]
 
-use crate::scene::{self, LightKind, Scene};
+mod scene;
+
+pub use scene::{SceneData, Tree};
+
 use crate::settings::{Estimator, Sampler};
 use bytemuck::{Pod, Zeroable};
-use glam::Vec3;
 
 /// `Sphere` of scene.glsl.
 #[repr(C)]
@@ -81,6 +83,18 @@ pub struct Environment {
     pub pad1: u32,
     pub ambient: [f32; 3],
     pub pad2: u32,
+}
+
+/// The three texels of a shape in bvh.glsl.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct TreeShape {
+    pub position: [f32; 3],
+    pub material: u32,
+    pub a: [f32; 3],
+    pub kind: u32,
+    pub b: [f32; 3],
+    pub pad0: u32,
 }
 
 /// `Counters` of trace_batch.glsl, added to by every dispatch.
@@ -162,21 +176,6 @@ impl Counters {
     }
 }
 
-/// A scene's buffers, in the shaders' order of shapes: spheres, boxes, triangles, planes.
-#[derive(Debug)]
-pub struct SceneData {
-    pub spheres: Vec<Sphere>,
-    pub boxes: Vec<Box>,
-    pub triangles: Vec<Triangle>,
-    pub planes: Vec<Plane>,
-    pub material_of_shape: Vec<u32>,
-    pub materials: Vec<Material>,
-    /// Those that cast shadows come first.
-    pub lights: Vec<Light>,
-    pub shadow_lights: usize,
-    pub environment: Environment,
-}
-
 impl Camera {
     /// The camera as the shaders want it. Derived in f64, rounded once.
     pub fn new(estimator: &Estimator) -> Self {
@@ -192,87 +191,5 @@ impl Camera {
             w: frame.w().as_vec3().to_array(),
             jitter: estimator.jitter,
         }
-    }
-}
-
-impl SceneData {
-    /// Every shape, material and light of a scene.
-    pub fn new(scene: &Scene) -> Self {
-        let shadowing = || scene.lights.iter().filter(|light| light.shadows);
-        let material_of_shape = (scene.spheres.iter().map(|shaded| shaded.material))
-            .chain(scene.boxes.iter().map(|shaded| shaded.material))
-            .chain(scene.triangles.iter().map(|shaded| shaded.material))
-            .chain(scene.planes.iter().map(|shaded| shaded.material));
-        Self {
-            spheres: scene.spheres.iter().map(|shaded| sphere(&shaded.shape)).collect(),
-            boxes: scene.boxes.iter().map(|shaded| aabb(&shaded.shape)).collect(),
-            triangles: scene.triangles.iter().map(|shaded| triangle(&shaded.shape)).collect(),
-            planes: scene.planes.iter().map(|shaded| plane(&shaded.shape)).collect(),
-            material_of_shape: material_of_shape.collect(),
-            materials: scene.materials.iter().map(material).collect(),
-            lights: shadowing()
-                .chain(scene.lights.iter().filter(|light| !light.shadows))
-                .map(light)
-                .collect(),
-            shadow_lights: shadowing().count(),
-            environment: Environment {
-                horizon: scene.background.horizon.to_array(),
-                zenith: scene.background.zenith.to_array(),
-                ambient: scene.ambient.to_array(),
-                ..Zeroable::zeroed()
-            },
-        }
-    }
-}
-
-fn sphere(sphere: &scene::Sphere) -> Sphere {
-    Sphere { center: sphere.center.to_array(), radius: sphere.radius }
-}
-
-fn aabb(aabb: &scene::Aabb) -> Box {
-    Box { lower: aabb.lower.to_array(), upper: aabb.upper.to_array(), ..Zeroable::zeroed() }
-}
-
-fn triangle(triangle: &scene::Triangle) -> Triangle {
-    let [a, b, c] = triangle.vertices;
-    Triangle {
-        vertex: a.to_array(),
-        edge1: (b - a).to_array(),
-        edge2: (c - a).to_array(),
-        ..Zeroable::zeroed()
-    }
-}
-
-fn plane(plane: &scene::Plane) -> Plane {
-    let normal = plane.normal.as_dvec3().normalize();
-    Plane { normal: normal.as_vec3().to_array(), offset: normal.dot(plane.point.as_dvec3()) as f32 }
-}
-
-fn material(material: &scene::Material) -> Material {
-    let checker = material.checker.as_ref();
-    Material {
-        color: material.color.to_array(),
-        ka: material.ka,
-        odd_color: checker.map_or(Vec3::ZERO, |checker| checker.odd_color).to_array(),
-        kd: material.kd,
-        reflectance: material.reflectance.to_array(),
-        ks: material.ks,
-        emission: material.emission.to_array(),
-        exponent: material.exponent,
-        inverse_checker_size: checker.map_or(0.0, |checker| checker.size.recip()),
-        ..Zeroable::zeroed()
-    }
-}
-
-fn light(light: &scene::Light) -> Light {
-    let (position_or_direction, is_directional) = match light.kind {
-        LightKind::Point(position) => (position, 0),
-        LightKind::Directional(direction) => (direction.as_dvec3().normalize().as_vec3(), 1),
-    };
-    Light {
-        radiance: light.radiance.to_array(),
-        is_directional,
-        position_or_direction: position_or_direction.to_array(),
-        pad0: 0,
     }
 }
