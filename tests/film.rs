@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Gpu, bits, film, scene_of, small};
+use common::{Gpu, bits, film, settings_of, small};
 use std::time::Duration;
 use thinlens::renderer::{Pace, Renderer};
 use thinlens::settings::{Sampler, Settings};
@@ -156,25 +156,27 @@ fn the_film_restarts_with_the_estimator_and_not_with_the_view() {
     }
 }
 
-/// So many matte spheres in a grid, lit.
+/// A light, and a material for shapes to come.
+const LIT: &str = "[camera]\neye = [0, 0, 9]\nlook_at = [0, 0, 0]\nvfov_degrees = 60\nlens_diameter = 0.1\n\
+                   focal_distance = 9\n[ambient]\nradiance = 1\n[[directional]]\ndirection = [1, 2, 3]\n\
+                   radiance = 2\n[matte.m]\nka = 0.5\nkd = 0.5\ncolor = [1, 0.9, 0.8]\n";
+
+/// So many spheres in a grid.
 fn spheres(count: usize) -> Settings {
-    let mut toml = String::from(
-        "[camera]\neye = [0, 0, 9]\nlook_at = [0, 0, 0]\nvfov_degrees = 60\nlens_diameter = 0.1\n\
-         focal_distance = 9\n[ambient]\nradiance = 1\n[[directional]]\ndirection = [1, 2, 3]\nradiance = 2\n\
-         [matte.m]\nka = 0.5\nkd = 0.5\ncolor = [1, 0.9, 0.8]\n",
-    );
-    for number in 0..count {
-        let (x, y, z) = (number % 20, number / 20 % 20, number / 400);
-        toml += &format!(
-            "[[sphere]]\ncenter = [{}, {}, -{z}]\nradius = 0.2\nmaterial = \"m\"\n",
-            0.5 * x as f64 - 5.0,
-            0.5 * y as f64 - 5.0
-        );
-    }
-    let mut settings = Settings::of_scene(scene_of(&toml));
-    settings.estimator.size = [24, 18];
-    settings.samples = 20;
-    settings
+    let sphere = |number: usize| {
+        let (x, y, z) =
+            (0.5 * (number % 20) as f64 - 5.0, 0.5 * (number / 20 % 20) as f64 - 5.0, number / 400);
+        format!("[[sphere]]\ncenter = [{x}, {y}, -{z}]\nradius = 0.2\nmaterial = \"m\"\n")
+    };
+    settings_of(&(LIT.to_owned() + &(0..count).map(sphere).collect::<String>()), [24, 18], 20)
+}
+
+/// So many planes, one behind the other.
+fn planes(count: usize) -> Settings {
+    let plane = |number: usize| {
+        format!("[[plane]]\npoint = [0, 0, -{number}]\nnormal = [0, 0, 1]\nmaterial = \"m\"\n")
+    };
+    settings_of(&(LIT.to_owned() + &(0..count).map(plane).collect::<String>()), [24, 18], 20)
 }
 
 /// Catches lavapipe's limit of 65,535 loop steps an invocation, beyond which it leaves the loops
@@ -182,18 +184,21 @@ fn spheres(count: usize) -> Settings {
 #[test]
 fn many_shapes_lose_no_samples() {
     let gpu = Gpu::new();
-    let mut settings = spheres(3000);
-    let film = film(&gpu, &settings);
-    assert!(film.iter().all(|texel| texel[3] == 20.0));
-    settings.samples = 8;
     let mut renderer = Renderer::new(gpu.device()).expect("a renderer");
-    thinlens::verify::verify(&mut renderer, &settings).unwrap_or_else(|error| panic!("{error}"));
+    // The farthest of these planes are never seen.
+    for mut settings in [spheres(3000), planes(3000)] {
+        let film = film(&gpu, &settings);
+        assert!(film.iter().all(|texel| texel[3] == 20.0));
+        settings.samples = 8;
+        thinlens::verify::verify(&mut renderer, &settings).unwrap_or_else(|error| panic!("{error}"));
+    }
 
-    // More than a software device can do is refused; a GPU has no such limit.
-    let refused = renderer.set(&spheres(33_000));
+    // More than a software device can do is refused; a GPU has no such limit. A tree bounds what balls
+    // cost a ray, but nothing does for planes.
+    let refused = renderer.set(&planes(33_000));
     if gpu.device().info().kind == thinlens::vulkan::SOFTWARE {
         let error = refused.expect_err("too many for software");
-        assert!(error.to_string().contains("fewer shapes"), "{error}");
+        assert!(error.to_string().contains("fewer planes"), "{error}");
     } else {
         refused.expect("a GPU has no such limit");
     }

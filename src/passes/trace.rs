@@ -38,6 +38,9 @@ pub struct SceneBuffers {
 }
 
 impl SceneBuffers {
+    /// Which of [`Self::constants`] says whether the shaders copy the scene before they start.
+    pub const KEPT_CONSTANT: usize = 8;
+
     /// Uploads a scene.
     ///
     /// # Errors

@@ -166,7 +166,7 @@ impl Renderer {
             Some(batch) => Ok(batch),
             None if self.device.info().kind != SOFTWARE => Ok(1),
             None => Err(Error::OutOfRange(format!(
-                "the scene can take {steps} steps a sample, but software devices stop at {}; use fewer shapes or \
+                "the scene can take {steps} steps a sample, but software devices stop at {}; use fewer planes or \
                  lights, a lower --max-bounces, or a GPU",
                 schedule::MAX_LOOP_STEPS
             ))),

@@ -58,9 +58,11 @@ pub fn probe_as<In: Pod, Out: Pod>(
     };
     let found = answers(&constants);
     if let (Some(_), SOFTWARE) = (&scene, device.info().kind) {
-        // Whether the scene is copied first may change nothing: the last constant.
-        let (kept, others) = constants.split_last().expect("a scene has constants");
-        let other = answers(&[others, &[1 - kept]].concat());
+        // Whether the scene is copied first may change nothing.
+        let mut others = constants.clone();
+        let kept = &mut others[SceneBuffers::KEPT_CONSTANT];
+        *kept = 1 - *kept;
+        let other = answers(&others);
         assert!(found == other, "{name}: copying the scene changes what comes out");
     }
     bytemuck::allocation::pod_collect_to_vec(&found)
