@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Gpu, bits, film, settings_of, small};
+use common::{Gpu, bits, film, render, settings_of, small};
 use std::time::Duration;
 use thinlens::renderer::{Pace, Renderer};
 use thinlens::settings::{Sampler, Settings};
@@ -202,4 +202,28 @@ fn many_shapes_lose_no_samples() {
     } else {
         refused.expect("a GPU has no such limit");
     }
+}
+
+/// Catches a search of the tree that is cut short and taken for a miss. Thousands of triangles, of which
+/// every ray meets the boxes and none of the shapes, take a software device too long.
+#[test]
+fn what_takes_too_long_is_rejected() {
+    let gpu = Gpu::new();
+    let triangle = |number: usize| {
+        let z = -0.001 * number as f64;
+        format!(
+            "[[triangle]]\nvertices = [[-90, 90, {z}], [90, 90, {z}], [90, -89, {z}]]\nmaterial = \"m\"\n"
+        )
+    };
+    let mut toml = LIT.to_owned() + &(0..3000).map(triangle).collect::<String>();
+    toml = toml
+        .replace("look_at = [0, 0, 0]", "look_at = [-40, -42, 0]")
+        .replace("vfov_degrees = 60", "vfov_degrees = 1");
+    let settings = settings_of(&toml, [8, 8], 4);
+    let mut renderer = gpu.renderer();
+    let film = render(&mut renderer, &settings).expect("a film");
+    let counted: f32 = film.iter().map(|texel| texel[3]).sum();
+    let rejected = renderer.progress().rejected_samples;
+    let software = gpu.device().info().kind == thinlens::vulkan::SOFTWARE;
+    assert_eq!((counted, rejected), if software { (0.0, 256) } else { (256.0, 0) });
 }

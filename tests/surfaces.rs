@@ -7,12 +7,12 @@ use anyhow::{Result, ensure};
 use bytemuck::{Pod, Zeroable};
 use common::probe::probe;
 use common::scenes::{EVERYTHING, ROOM};
-use common::{Gpu, prove, scene_of};
+use common::{Gpu, plain_scene_of, prove, scene_of};
 use glam::{DVec3, Vec3};
 use thinlens::reference::intersect::intersect;
 use thinlens::reference::shading::radiance;
 use thinlens::reference::{Ray, sampler, tone};
-use thinlens::scene::SceneRef;
+use thinlens::scene::{SceneRef, Shaded, Triangle};
 use thinlens::settings::Sampler;
 
 #[repr(C)]
@@ -118,7 +118,55 @@ fn shapes() -> Vec<(&'static str, SceneRef)> {
         ("triangle", scene(&[triangle])),
         ("plane", scene(&[plane])),
         ("all of them", scene(&[sphere, far_sphere, a_box, triangle, plane])),
+        ("a crowd", crowd()),
     ]
+}
+
+/// So many small shapes of each kind that they are found by a tree.
+fn crowd() -> SceneRef {
+    let mut toml = CAMERA.to_owned();
+    for number in 0..30 {
+        toml += &format!("[emissive.m{number}]\nradiance = {number}\n");
+    }
+    let at = |index: u32, stream: u32| {
+        let [x, y, z, size] = random(index, stream);
+        (3.0 * DVec3::new(x, y, z), 0.06 + 0.05 * size)
+    };
+    for index in 0..250 {
+        let material = format!("material = \"m{}\"\n", index % 30);
+        let (center, radius) = at(index, 5);
+        toml += &format!("[[sphere]]\ncenter = {center}\nradius = {radius}\n{material}");
+        let (center, half) = at(index, 6);
+        toml += &format!("[[box]]\nlower = {}\nupper = {}\n{material}", center - half, center + 2.0 * half);
+        let (center, size) = at(index, 7);
+        let [a, b] = [8, 9].map(|stream| center + 6.0 * size * random_direction(index, stream));
+        toml += &format!("[[triangle]]\nvertices = [{center}, {a}, {b}]\n{material}");
+    }
+    scene_of(&toml)
+}
+
+/// The scene [`EVERYTHING`], and triangles with normals at their corners, so that it has a tree.
+fn everything_and_smooth_triangles() -> SceneRef {
+    let mut scene = plain_scene_of(EVERYTHING);
+    // Without a shadow, nothing else keeps light from a surface's back.
+    scene.lights[1].shadows = false;
+    let shiny = scene.boxes[0].material;
+    let mirror = scene.spheres[0].material;
+    for index in 0..200 {
+        let [x, y, z, _] = random(index, 10);
+        let center = DVec3::new(2.0 * x, 1.0 + y, 2.0 * z);
+        let vertices = [11, 12, 13].map(|stream| (center + 0.5 * random_direction(index, stream)).as_vec3());
+        let [a, b, c] = vertices;
+        let across = (b - a).cross(c - a).normalize();
+        // So far from the triangle's own that mirror images leave below the surface, and some on the other
+        // side of it.
+        let spread = if index % 3 == 0 { 4.0 } else { 1.2 };
+        let normals = [14, 15, 16]
+            .map(|stream| (across + spread * random_direction(index, stream).as_vec3()).normalize());
+        let material = if index % 4 == 0 { mirror } else { shiny };
+        scene.triangles.push(Shaded { shape: Triangle { vertices, normals: Some(normals) }, material });
+    }
+    SceneRef::new(scene)
 }
 
 /// Catches an intersection that is wrong anywhere: from inside, from behind, along an axis, on the
@@ -191,6 +239,12 @@ fn rays_meet_what_the_oracles_meet() {
             "plane_met_behind_the_ray",
             "farthest_hit_kept",
             "shapes_numbered_by_kind",
+            "tree_node_of_another_slot",
+            "tree_group_lost",
+            "tree_stack_one_deep",
+            "tree_planes_of_the_other_side",
+            "tree_leaf_of_one_shape",
+            "tree_boxes_a_step_too_small",
         ],
     );
 }
@@ -225,7 +279,15 @@ fn only_what_lies_nearer_than_the_limit_occludes() {
         }
         Ok(format!("{count} hits, each before, behind and far below the limit"))
     };
-    prove(check, &["shadow_limit_ignored", "shadow_limit_squared", "planes_cast_no_shadow"]);
+    prove(
+        check,
+        &[
+            "shadow_limit_ignored",
+            "shadow_limit_squared",
+            "planes_cast_no_shadow",
+            "tree_shadow_by_what_lies_beyond",
+        ],
+    );
 }
 
 #[repr(C)]
@@ -242,8 +304,11 @@ struct Shown {
 fn rays_show_what_the_oracles_show() {
     let check = |gpu: &Gpu| -> Result<String> {
         let (mut count, mut differ, mut worst) = (0, 0, 0.0_f64);
-        for (name, toml, extent) in [("everything", EVERYTHING, 3.0), ("room", ROOM, 0.95)] {
-            let scene = scene_of(toml);
+        for (name, scene, extent) in [
+            ("everything", scene_of(EVERYTHING), 3.0),
+            ("everything and smooth triangles", everything_and_smooth_triangles(), 3.0),
+            ("room", scene_of(ROOM), 0.95),
+        ] {
             for max_bounces in [0_u32, 1, 4] {
                 let rays = rays(extent, 8192);
                 let shown: Vec<Shown> =
@@ -288,6 +353,10 @@ fn rays_show_what_the_oracles_show() {
             "mirror_loses_light",
             "box_normal_of_the_far_face",
             "sky_upside_down",
+            "corner_normals_swapped",
+            "corner_normals_turned_from_the_ray",
+            "mirror_into_the_surface",
+            "light_from_below_the_surface",
         ],
     );
 }

@@ -112,16 +112,45 @@ uint meet_children(Ray ray, vec3 inverse_direction, uint octant, float limit, ui
     return met;
 }
 
+// Groups left behind, the last first. A stack that shifts needs no index that differs from invocation to
+// invocation, and is spelled out, for Mesa's software device unrolls no loop inside another one.
+uvec2 stack[TREE_DEPTH + 1u];
+const uint SPELLED_OUT = 12u;
+
+#define SHIFT_DOWN(i) if (depth >= i) { stack[i] = stack[i - 1u]; }
+#define SHIFT_UP(i) if (depth >= i) { stack[i - 1u] = stack[i]; }
+
+void push_group(uvec2 group) {
+    uint depth = TREE_DEPTH;
+    for (uint i = depth; i > SPELLED_OUT; --i) {
+        stack[i] = stack[i - 1u];
+    }
+    SHIFT_DOWN(12u) SHIFT_DOWN(11u) SHIFT_DOWN(10u) SHIFT_DOWN(9u) SHIFT_DOWN(8u) SHIFT_DOWN(7u)
+    SHIFT_DOWN(6u) SHIFT_DOWN(5u) SHIFT_DOWN(4u) SHIFT_DOWN(3u) SHIFT_DOWN(2u) SHIFT_DOWN(1u)
+    stack[0] = group;
+}
+
+uvec2 pop_group() {
+    uint depth = TREE_DEPTH;
+    uvec2 group = stack[0];
+    SHIFT_UP(1u) SHIFT_UP(2u) SHIFT_UP(3u) SHIFT_UP(4u) SHIFT_UP(5u) SHIFT_UP(6u)
+    SHIFT_UP(7u) SHIFT_UP(8u) SHIFT_UP(9u) SHIFT_UP(10u) SHIFT_UP(11u) SHIFT_UP(12u)
+    for (uint i = SPELLED_OUT + 1u; i <= depth; ++i) {
+        stack[i - 1u] = stack[i];
+    }
+    return group;
+}
+
 // The distance to the nearest shape nearer than limit, and its index; MISS if there is none. With any_will_do the
 // first one found ends the search. given_up: the search took too long.
 float search_tree(Ray ray, vec3 inverse_direction, float limit, bool any_will_do, out uint nearest, inout bool given_up) {
-    uvec2 stack[TREE_DEPTH + 1u];
     uint octant = (ray.direction.x < 0.0 ? 0u : 4u) | (ray.direction.y < 0.0 ? 0u : 2u) | (ray.direction.z < 0.0 ? 0u : 1u);
     uvec2 nodes = uvec2(0u, 0x80000000u); // the root
     uvec2 shapes = uvec2(0u);
     float distance = MISS;
     uint steps = 0u;
-    [[unroll]] for (uint i = 0u; i <= TREE_DEPTH; ++i) {
+    stack[TREE_DEPTH] = uvec2(0u);
+    [[unroll]] for (uint i = 0u; i < TREE_DEPTH; ++i) {
         stack[i] = uvec2(0u);
     }
     while (true) {
@@ -133,11 +162,9 @@ float search_tree(Ray ray, vec3 inverse_direction, float limit, bool any_will_do
             uvec4 header;
             uvec2 bases;
             uint met = meet_children(ray, inverse_direction, octant, distance < limit ? distance : limit, node, header, bases);
-            bool push = nodes.y > 0xffffffu && met > 0xffffffu;
-            [[unroll]] for (uint i = TREE_DEPTH; i > 0u; --i) {
-                stack[i] = push ? stack[i - 1u] : stack[i];
+            if (nodes.y > 0xffffffu && met > 0xffffffu) {
+                push_group(nodes);
             }
-            stack[0] = push ? nodes : stack[0];
             nodes = met > 0xffffffu ? uvec2(bases.x, met & 0xff000000u | header.w >> 24u) : nodes;
             shapes = uvec2(bases.y, met & 0xffffffu);
         }
@@ -150,10 +177,8 @@ float search_tree(Ray ray, vec3 inverse_direction, float limit, bool any_will_do
             nearest = closer ? index : nearest;
             distance = closer ? at : distance;
         }
-        bool pop = shapes.y == 0u && nodes.y <= 0xffffffu;
-        nodes = pop ? stack[0] : nodes;
-        [[unroll]] for (uint i = 0u; i < TREE_DEPTH; ++i) {
-            stack[i] = pop ? stack[i + 1u] : stack[i];
+        if (shapes.y == 0u && nodes.y <= 0xffffffu) {
+            nodes = pop_group();
         }
         if (any_will_do && distance < limit || shapes.y == 0u && nodes.y <= 0xffffffu) {
             break;

@@ -19,6 +19,9 @@ const MOST_KEPT: usize = 64;
 /// triangles some dozens are usual. Were there no limit, nor could there be a safe batch.
 const MOST_TREE_STEPS: usize = 1024;
 
+/// `SPELLED_OUT` of bvh.glsl: where the stack is deeper, a step goes through the rest of it in loops.
+const SPELLED_OUT_STACK: u64 = 12;
+
 /// The bits of a sample index, which the Sobol sequence goes through.
 const SAMPLER_LOOP_STEPS: u64 = 24;
 
@@ -95,7 +98,9 @@ impl SceneBuffers {
     /// over lights and reflections, and in the sampler.
     pub fn most_loop_steps(&self, max_bounces: u32) -> u64 {
         let [spheres, boxes, triangles, planes, lights, ..] = self.counts.map(u64::from);
-        let shapes = spheres + boxes + triangles + planes + u64::from(self.tree_constants[2]);
+        let [depth, _, steps] = self.tree_constants.map(u64::from);
+        let tree = steps * (1 + 2 * depth.saturating_sub(SPELLED_OUT_STACK));
+        let shapes = spheres + boxes + triangles + planes + tree;
         SAMPLER_LOOP_STEPS + u64::from(self.most_surfaces(max_bounces)) * (1 + shapes + lights * (1 + shapes))
     }
 

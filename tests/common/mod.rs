@@ -11,7 +11,7 @@ use std::sync::Arc;
 use thinlens::error::Error;
 use thinlens::passes::Shaders;
 use thinlens::renderer::Renderer;
-use thinlens::scene::{self, SceneRef};
+use thinlens::scene::{self, Scene, SceneRef};
 use thinlens::settings::Settings;
 use thinlens::vulkan::{Device, Instance, Shader};
 
@@ -124,11 +124,15 @@ pub fn small(scene: &str) -> Settings {
 
 /// A scene from TOML.
 pub fn scene_of(toml: &str) -> SceneRef {
+    SceneRef::new(plain_scene_of(toml))
+}
+
+/// Likewise, to be changed.
+pub fn plain_scene_of(toml: &str) -> Scene {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("test.toml");
     std::fs::write(&path, toml).expect("a writable temporary folder");
-    let scene = scene::load(path.to_str().expect("a plain path")).expect("a valid scene");
-    SceneRef::new(scene)
+    scene::load(path.to_str().expect("a plain path")).expect("a valid scene")
 }
 
 /// The settings of a scene from TOML, at this size and so many samples per pixel.
