@@ -15,6 +15,11 @@ def rmse(picture, reference):
     return float(numpy.sqrt(numpy.mean(difference.astype(numpy.float64) ** 2)))
 
 
+def without_reference_noise(error, samples, reference_samples):
+    """An error without the part that independent noise in the reference picture has in it."""
+    return error * (reference_samples / (reference_samples + samples)) ** 0.5
+
+
 def seconds_to(target, renders):
     """Seconds to an RMSE, between the measured renders along straight lines in log-log.
 
@@ -23,10 +28,9 @@ def seconds_to(target, renders):
     """
     if target > renders[0][1]:
         return None
-    segments = zip(renders, renders[1:])
-    for (seconds0, error0), (seconds1, error1) in segments:
-        if error1 <= target or (seconds1, error1) == renders[-1]:
-            break
+    end = next((i for i, (_, error) in enumerate(renders) if error <= target), len(renders) - 1)
+    # The first picture may be just as good as wanted.
+    (seconds0, error0), (seconds1, error1) = renders[max(end, 1) - 1], renders[max(end, 1)]
     share = numpy.log(target / error0) / numpy.log(error1 / error0)
     return float(seconds0 * (seconds1 / seconds0) ** share)
 
@@ -36,35 +40,36 @@ def summary(values):
     return {"median": statistics.median(values), "low": min(values), "high": max(values)}
 
 
-def compare(rounds, pixels, reference_samples):
-    """The figures of one scene.
+def compare(rounds, pixels):
+    """The figures of one scene: the common RMSE, and each renderer's speed and seconds to it.
 
-    rounds: for each renderer a list of rounds, each a list of renders {samples, seconds, rmse}.
-    thinlens is the one that the others' ratios are to. Ratios above 1 mean that it is ahead.
+    rounds: for each renderer a list of rounds, each a list of renders {samples, seconds, rmse}. The
+    common RMSE is the lowest that every renderer reached. The ratios to thinlens are within a
+    round; above 1 thinlens is ahead. They are missing where thinlens is.
     """
-    ours = rounds["thinlens"]
-    target = max(
-        statistics.median(renders[-1]["rmse"] for renders in own) for own in rounds.values()
-    )
+    if not rounds:
+        return None
+    target = max(statistics.median(row[-1]["rmse"] for row in own) for own in rounds.values())
+    speeds = {name: [_speed(row, pixels) for row in own] for name, own in rounds.items()}
+    times = {name: [_time(row, target) for row in own] for name, own in rounds.items()}
     figures = {}
     for name, own in rounds.items():
-        speeds = [_speed(renders, pixels) for renders in own]
-        times = [_time(renders, target) for renders in own]
-        our_times = [_time(renders, target) for renders in ours]
         figures[name] = {
-            "msamples_per_second": summary(speeds),
-            "throughput_ratio": summary(
-                [_speed(a, pixels) / b for a, b in zip(ours, speeds, strict=True)]
-            ),
+            "msamples_per_second": summary(speeds[name]),
             "rmse": [
-                {"samples": row[0]["samples"], **summary([render["rmse"] for render in row])}
-                for row in zip(*own)
+                {"samples": column[0]["samples"], **summary([r["rmse"] for r in column])}
+                for column in zip(*own, strict=True)
             ],
         }
-        if None not in times + our_times:
-            figures[name]["seconds_to_rmse"] = summary(times)
-            figures[name]["time_ratio"] = summary([b / a for a, b in zip(our_times, times)])
-    return {"target_rmse": target, "reference_samples": reference_samples, "renderers": figures}
+        if None not in times[name]:
+            figures[name]["seconds_to_rmse"] = summary(times[name])
+        if "thinlens" in rounds:
+            ratios = [a / b for a, b in zip(speeds["thinlens"], speeds[name], strict=True)]
+            figures[name]["throughput_ratio"] = summary(ratios)
+            if None not in times[name] + times["thinlens"]:
+                ratios = [b / a for a, b in zip(times["thinlens"], times[name], strict=True)]
+                figures[name]["time_ratio"] = summary(ratios)
+    return {"target_rmse": target, "renderers": figures}
 
 
 def _speed(renders, pixels):

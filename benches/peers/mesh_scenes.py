@@ -11,7 +11,7 @@ GRIDS = {"mesh-102400": (320, 160), "mesh-1048576": (1024, 512)}
 
 RING_RADIUS = 1.3
 TUBE_RADIUS = 0.55
-CENTER = (0.0, 0.75, -6.0)
+CENTER = (0.0, 0.62, -6.0)
 
 SCENE = """\
 size = [640, 480]
@@ -67,13 +67,13 @@ def write(name, folder):
     step = 1e-4
     along_ring = _surface(ring + step, tube) - _surface(ring - step, tube)
     along_tube = _surface(ring, tube + step) - _surface(ring, tube - step)
-    normals = numpy.cross(along_tube, along_ring)
+    normals = numpy.cross(along_ring, along_tube)
     normals /= numpy.linalg.norm(normals, axis=-1, keepdims=True)
 
     index = numpy.arange(around * across).reshape(around, across) + 1
     right, up = numpy.roll(index, -1, axis=0), numpy.roll(index, -1, axis=1)
     corner = numpy.roll(right, -1, axis=1)
-    faces = numpy.stack([index, up, corner, index, corner, right], axis=-1).reshape(-1, 3)
+    faces = numpy.stack([index, corner, up, index, right, corner], axis=-1).reshape(-1, 3)
 
     with open(folder / f"{name}.obj", "w") as obj:
         numpy.savetxt(obj, positions.reshape(-1, 3), "v %.7g %.7g %.7g")
@@ -85,9 +85,9 @@ def write(name, folder):
 
 
 def _surface(ring, tube):
-    """Points of the bumpy ring, which lies around the upward axis, tilted towards the camera."""
-    radius = TUBE_RADIUS * (1 + 0.12 * numpy.sin(14 * ring) * numpy.sin(9 * tube))
-    radius += 0.02 * numpy.sin(55 * ring + 3 * numpy.sin(21 * tube))
+    """Points of the bumpy ring, which lies around the upward axis; angles in radians."""
+    radius = TUBE_RADIUS * (1 + 0.08 * numpy.sin(14 * ring) * numpy.sin(9 * tube))
+    radius += 0.005 * numpy.sin(50 * ring + 3 * numpy.sin(11 * tube))
     out = RING_RADIUS + radius * numpy.cos(tube)
     points = numpy.stack(
         [out * numpy.cos(ring), radius * numpy.sin(tube), -out * numpy.sin(ring)], axis=-1

@@ -1,20 +1,39 @@
 """Renders with Mitsuba 3, variant llvm_ad_rgb; peer.py describes the job.
 
-The job's variant is the integrator, "path" or "direct". README.md says what differs from thinlens.
+The job also has "integrator", one of INTEGRATORS, and "sampler", "independent" or "multijitter".
+README.md says what differs from thinlens.
 """
 
 import math
+import os
 import pathlib
+import sys
 import tempfile
 import time
 
-import drjit
-import mitsuba
 import numpy
 import peer
 import scenes
 
-mitsuba.set_variant("llvm_ad_rgb")
+# Where LLVM is not named, Debian's libllvm19 by the name that the loader finds it under.
+os.environ.setdefault("DRJIT_LIBLLVM_PATH", "libLLVM.so.19.1")
+try:
+    import drjit
+    import mitsuba
+
+    mitsuba.set_variant("llvm_ad_rgb")
+except ImportError as error:
+    sys.exit(
+        f"Mitsuba does not start ({error}): pip install mitsuba==3.9.1, apt install libllvm19, and "
+        "name LLVM's library in DRJIT_LIBLLVM_PATH where it is not found"
+    )
+
+INTEGRATORS = {
+    "path": {"type": "path", "max_depth": 5},
+    "direct": {"type": "direct"},
+    # Nothing but a shadow ray from the first surface: mirrors stay black.
+    "lights": {"type": "direct", "emitter_samples": 1, "bsdf_samples": 0},
+}
 
 # Half the edge of the square that stands for the endless ground, in scene units.
 GROUND = 10000.0
@@ -37,23 +56,17 @@ def texture(color, to_uv=None):
 
 
 def bsdf(material, to_uv=None):
+    """Mitsuba has no Phong lobe, and its own cost more: highlights are left out."""
     if material.kind == "mirror":
-        return {"type": "conductor", "material": "none", "specular_reflectance": rgb(material.scaled(material.kr))}
+        reflectance = rgb(material.scaled(material.kr))
+        return {"type": "conductor", "material": "none", "specular_reflectance": reflectance}
     if material.kind == "emissive":
         return {"type": "diffuse", "reflectance": rgb([0, 0, 0])}
-    reflectance = texture(material.scaled(material.kd), to_uv)
-    if material.kind == "phong":
-        # Mitsuba has no Phong lobe; a Beckmann lobe of about the same width.
-        return {
-            "type": "roughplastic",
-            "alpha": math.sqrt(2 / (material.exponent + 2)),
-            "diffuse_reflectance": reflectance,
-        }
-    return {"type": "diffuse", "reflectance": reflectance}
+    return {"type": "diffuse", "reflectance": texture(material.scaled(material.kd), to_uv)}
 
 
 def ground(material):
-    """The plane y = 0. u runs along x, v against z; the shift puts it into the odd layer of cells."""
+    """The plane y = 0. u runs along x, v against z; the shift puts it into the odd layer."""
     transform, to_uv = mitsuba.ScalarTransform4f(), None
     if isinstance(material.color, scenes.Checker):
         cells = 0.5 / material.color.size
@@ -153,12 +166,9 @@ def light(light, camera):
 
 def translate(scene, job, folder):
     camera, (width, height) = scene.camera, job["size"]
-    integrator = {"type": job["variant"]}
-    if job["variant"] == "path":
-        integrator["max_depth"] = 5
     result = {
         "type": "scene",
-        "integrator": integrator,
+        "integrator": INTEGRATORS[job["integrator"]],
         "sensor": {
             "type": "thinlens",
             "fov": math.degrees(camera.vfov),
@@ -176,7 +186,7 @@ def translate(scene, job, folder):
                 "component_format": "float32",
                 "rfilter": {"type": "box"},
             },
-            "sampler": {"type": job.get("sampler", "independent"), "sample_count": 1},
+            "sampler": {"type": job["sampler"]},
         },
         "sky": sky(scene),
     }

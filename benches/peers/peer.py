@@ -3,10 +3,10 @@
     python3 PEER_peer.py JOB.json
 
 A job is {"scene": scene file, "size": [width, height], "threads": n, "samples": [n, ...],
-"seed": n, "variant": which of the peer's integrators, "folder": where pictures go, "program": a
-command-line renderer's path}. The result is printed as the last line, as JSON: {"version": words,
-"renders": [{"samples": n, "seconds": wall-clock time of the rendering alone, "picture": file}]}.
-Pictures are NumPy files: height x width x 3, float32, linear radiance.
+"seed": n, "folder": where pictures go, "thinlens": its binary, and what one peer alone looks at}.
+The result is printed as the last line, as JSON: {"version": words, "renders": [{"samples": n,
+"seconds": wall-clock time of the rendering alone, "picture": file}]}. Pictures are NumPy files:
+height x width x 3, float32, linear radiance.
 """
 
 import json
@@ -25,5 +25,7 @@ def main(prepare):
         seconds, pixels = render(samples)
         picture = pathlib.Path(job["folder"]) / f"{samples}.npy"
         numpy.save(picture, numpy.asarray(pixels, numpy.float32))
+        # POV-Ray counts in milliseconds, and what is taken off for Cycles can be all of it.
+        seconds = max(seconds, 1e-3)
         renders.append({"samples": samples, "seconds": seconds, "picture": str(picture)})
     print(json.dumps({"version": version, "renders": renders}))

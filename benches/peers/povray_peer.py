@@ -101,15 +101,16 @@ def sky(scene):
     for step in range(SKY_STEPS + 1):
         height = step / SKY_STEPS
         share = height * (2 - height)
-        color = [h + (z - h) * share for h, z in zip(scene.horizon, scene.zenith)]
+        color = [h + (z - h) * share for h, z in zip(scene.horizon, scene.zenith, strict=True)]
         entries.append(f"[{height} rgb {vector(color)}]")
     # Scaled a little: at the zenith itself the pattern would start again.
-    return f"sky_sphere {{ pigment {{ gradient y color_map {{ {' '.join(entries)} }} scale 1.001 }} }}"
+    colors = " ".join(entries)
+    return f"sky_sphere {{ pigment {{ gradient y color_map {{ {colors} }} scale 1.001 }} }}"
 
 
 def camera(camera, size, samples):
-    """A right-handed camera. An aperture of 2 D blurs as a lens of diameter D does (measured); with a
-    variance of 0 no pixel stops early."""
+    """A right-handed camera. An aperture of 2 D blurs as a lens of diameter D does, as measured;
+    with a variance of 0 no pixel stops early."""
     aspect = size[0] / size[1]
     hfov = math.degrees(2 * math.atan(aspect * math.tan(camera.vfov / 2)))
     return f"""camera {{ perspective

@@ -1,6 +1,7 @@
 """The table, in Markdown, and the contact sheets."""
 
 import datetime
+import os
 import pathlib
 import platform
 
@@ -10,7 +11,23 @@ from PIL import Image, ImageDraw
 LABEL_HEIGHT = 20  # pixels
 
 
-def cpu():
+def about(args):
+    """Where and how the comparison runs."""
+    return {
+        "date": str(datetime.date.today()),
+        "cpu": _cpu(),
+        "system": f"{platform.system()} {platform.release()}",
+        # What else the machine was doing, in busy threads, over the last minute.
+        "load_before": round(os.getloadavg()[0], 2),
+        "threads": args.threads,
+        "size": args.size,
+        "rounds": args.rounds,
+        "reference_samples": args.reference_samples,
+        "quick": args.quick,
+    }
+
+
+def _cpu():
     info = pathlib.Path("/proc/cpuinfo")
     if info.exists():
         for line in info.read_text().splitlines():
@@ -19,21 +36,25 @@ def cpu():
     return platform.processor() or platform.machine()
 
 
-def header(options, versions):
-    lines = [
-        f"{datetime.date.today()}, {cpu()}, {options['threads']} threads, {platform.system()} "
-        f"{platform.release()}; {options['width']} x {options['height']} pixels, medians (lowest "
-        f"to highest) of {options['rounds']} rounds in turn.",
-        "",
-    ]
-    lines += [f"- {name}: {version}" for name, version in versions.items()]
-    return "\n".join(lines)
+def header(about, versions):
+    width, height = about["size"]
+    words = "A smoke run, of no use as figures. " if about["quick"] else ""
+    words += (
+        f"{about['date']}, {about['cpu']}, {about['threads']} threads, {about['system']}, load "
+        f"before {about['load_before']}; {width} x {height} pixels, medians (lowest to highest) of "
+        f"{about['rounds']} rounds in turn, converged pictures of {about['reference_samples']} "
+        "samples."
+    )
+    return "\n".join([words, "", *(f"- {name}: {version}" for name, version in versions.items())])
 
 
-def table(scene, result, failures):
-    """One scene's table; failures are (renderer, reason)."""
-    most = result["renderers"]["thinlens"]["rmse"][-1]["samples"] if result else 0
-    target = f"{result['target_rmse']:.2g}" if result else "?"
+def table(scene, figures, failures):
+    """One scene's table; figures as measure.compare gives them, failures {renderer: reason}."""
+    rows = figures["renderers"] if figures else {}
+    most, target = "most", "?"
+    if rows:
+        most = next(iter(rows.values()))["rmse"][-1]["samples"]
+        target = f"{figures['target_rmse']:.2g}"
     lines = [
         f"### {scene}",
         "",
@@ -41,22 +62,25 @@ def table(scene, result, failures):
         f"| seconds to RMSE {target} | thinlens is ahead |",
         "|---|---|---|---|---|---|",
     ]
-    for name, row in (result["renderers"] if result else {}).items():
+    for name, row in rows.items():
         cells = [
             name,
             _spread(row["msamples_per_second"]),
-            _spread(row["throughput_ratio"], "x"),
+            _spread(row.get("throughput_ratio"), "x"),
             f"{row['rmse'][-1]['median']:.2g}",
-            _spread(row["seconds_to_rmse"]) if "time_ratio" in row else "less than the first",
-            _spread(row["time_ratio"], "x") if "time_ratio" in row else "?",
+            # Better with its first samples than the common RMSE: no time to compare.
+            _spread(row.get("seconds_to_rmse")),
+            _spread(row.get("time_ratio"), "x"),
         ]
         lines.append("| " + " | ".join(cells) + " |")
-    for name, reason in failures:
+    for name, reason in failures.items():
         lines.append(f"| {name} | failed: {reason.replace('|', '/')} | | | | |")
     return "\n".join(lines)
 
 
 def _spread(values, unit=""):
+    if values is None:
+        return "?"
     median, low, high = (f"{values[key]:.3g}" for key in ("median", "low", "high"))
     return f"{median}{unit} ({low} to {high})"
 

@@ -155,7 +155,8 @@ def box_faces(lower, upper):
         first, second = (axis + 1) % 3, (axis + 2) % 3
         for side in (0, 1):
             corners = []
-            for a, b in ((0, 0), (1, 0), (1, 1), (0, 1)) if side else ((0, 0), (0, 1), (1, 1), (1, 0)):
+            around = ((0, 0), (1, 0), (1, 1), (0, 1))
+            for a, b in around if side else reversed(around):
                 corner = [0.0, 0.0, 0.0]
                 corner[axis] = bounds[side][axis]
                 corner[first] = bounds[a][first]

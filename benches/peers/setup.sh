@@ -8,6 +8,6 @@ cd "$(dirname "$0")"
 as_root() { if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi; }
 
 # Mitsuba's llvm variants load LLVM at run time. The X and GL libraries are what bpy is linked to.
-as_root apt-get install -y povray libllvm19 libx11-6 libxi6 libxxf86vm1 libxfixes3 libxrender1 \
-    libxkbcommon0 libsm6 libice6 libgl1 libegl1
+as_root apt-get install -y povray libllvm19 libx11-6 libxext6 libxfixes3 libxi6 libxrender1 \
+    libxkbcommon0 libsm6 libice6 libgl1
 python3 -m pip install -r requirements.txt
