@@ -25,7 +25,7 @@ def main(prepare):
         seconds, pixels = render(samples)
         picture = pathlib.Path(job["folder"]) / f"{samples}.npy"
         numpy.save(picture, numpy.asarray(pixels, numpy.float32))
-        # POV-Ray counts in milliseconds, and what is taken off for Cycles can be all of it.
+        # POV-Ray counts in milliseconds, from none.
         seconds = max(seconds, 1e-3)
         renders.append({"samples": samples, "seconds": seconds, "picture": str(picture)})
     print(json.dumps({"version": version, "renders": renders}))
