@@ -13,9 +13,10 @@ layout(set = 0, binding = 0, rgba32f) uniform image2D film_image;
 void main() {
     keep_scene();
     TracePush push = push_constants;
-    uvec2 pixel = lattice_pixel(push.lattice, gl_GlobalInvocationID.xy);
-    if (inside(pixel, push.lattice.extent)) {
+    uvec2 pixel;
+    if (find_pixel(push.lattice, pixel)) {
+        float moment;
         vec4 film = imageLoad(film_image, ivec2(pixel));
-        imageStore(film_image, ivec2(pixel), merge(film, trace_batch(push, pixel)));
+        imageStore(film_image, ivec2(pixel), merge(film, trace_batch(push, pixel, moment)));
     }
 }

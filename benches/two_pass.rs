@@ -6,8 +6,8 @@
 
 use std::sync::Arc;
 use thinlens::error::Result;
-use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush, sampler_constant};
-use thinlens::passes::{Accumulate, SceneBuffers, Trace};
+use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush, estimator_constants};
+use thinlens::passes::{Accumulate, Adaptive, SceneBuffers, Trace};
 use thinlens::renderer::schedule::Pass;
 use thinlens::scene::{self, SceneRef};
 use thinlens::settings::Settings;
@@ -43,25 +43,32 @@ fn measure(device: &Arc<Device>, name: &str) -> Result<()> {
     let mut settings = Settings::of_scene(SceneRef::new(scene::load(name)?));
     settings.estimator.size = SIZE;
     let estimator = &settings.estimator;
-    let sampler = sampler_constant(estimator.sampler);
+    let constants = estimator_constants(estimator);
     let batch = Arc::new(Image::rgba32f(device, "batch", SIZE)?);
     let film = Arc::new(Image::rgba32f(device, "film", SIZE)?);
     let counters =
         Arc::new(Buffer::new(device, "counters", size_of::<Counters>() as u64, Residence::Device)?);
     let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene))?;
     let (trace, accumulate) = (
-        Trace::new(device, Trace::SHADER, sampler, &scene)?,
-        Accumulate::new(device, Accumulate::SHADER, sampler)?,
+        Trace::new(device, Trace::SHADER, constants, &scene)?,
+        Accumulate::new(device, Accumulate::SHADER, constants)?,
     );
-    let (traced, accumulated) = (trace.bind(&scene, &batch, &counters)?, accumulate.bind(&batch, &film)?);
-    let fused = ComputePipeline::new(device, FUSED, &scene.constants(sampler))?;
+    let adaptive = Adaptive::new(device, None)?;
+    let traced = trace.bind(&scene, &batch, &counters, &adaptive, 0)?;
+    let accumulated = accumulate.bind(&batch, &film, &adaptive, 0)?;
+    let fused = ComputePipeline::new(device, FUSED, &scene.constants(constants))?;
     let front = [Binding::Image(Arc::clone(&film)), Binding::Buffer(Arc::clone(&counters))];
-    let fused_bindings = BindingSet::new(&fused, &scene.bindings(front))?;
+    let fused_bindings = {
+        let mut bindings = scene.bindings(front);
+        bindings.push(adaptive.bind_list(13, 0));
+        BindingSet::new(&fused, &bindings)?
+    };
 
     let mut commands = Commands::new(device)?;
     let mut recording = commands.begin()?;
     recording.clear(&batch);
     recording.clear(&film);
+    adaptive.moments().iter().for_each(|moments| recording.clear(moments));
     recording.submit()?;
     let timer = Timer::new(device)?;
     let (mut two, mut one) = (Vec::new(), Vec::new());

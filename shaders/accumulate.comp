@@ -7,11 +7,13 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-#include "film.glsl"
+#include "adaptive.glsl"
 #include "sampling.glsl"
 
 layout(set = 0, binding = 0, rgba32f) readonly uniform image2D batch_image;
 layout(set = 0, binding = 1, rgba32f) uniform image2D film_image;
+layout(set = 0, binding = 14, r32f) readonly uniform image2D batch_moments;
+layout(set = 0, binding = 15, r32f) uniform image2D film_moments;
 
 layout(push_constant, std430) uniform AccumulatePush {
     Lattice lattice; // the pixels to merge
@@ -21,14 +23,31 @@ layout(push_constant, std430) uniform AccumulatePush {
     int reach; // how many pixels a sample can land from its start pixel; 0: at home
 } push;
 
+vec4 film = vec4(0.0);
+float moment = 0.0;
+
+// Merges what was traced for the start pixel.
+void gather(ivec2 start) {
+    vec4 batch = imageLoad(batch_image, start);
+    if (IS_ADAPTIVE == 1u) {
+        moment = merge_moments(film, moment, batch, imageLoad(batch_moments, start).r);
+    }
+    film = merge(film, batch);
+}
+
 void main() {
-    uvec2 pixel = lattice_pixel(push.lattice, gl_GlobalInvocationID.xy);
-    if (!inside(pixel, push.lattice.extent)) {
+    uvec2 pixel;
+    if (!find_pixel(push.lattice, pixel)) {
         return;
     }
-    vec4 film = push.first_sample == 0u ? vec4(0.0) : imageLoad(film_image, ivec2(pixel));
+    if (push.first_sample > 0u) {
+        film = imageLoad(film_image, ivec2(pixel));
+        if (IS_ADAPTIVE == 1u) {
+            moment = imageLoad(film_moments, ivec2(pixel)).r;
+        }
+    }
     if (push.reach == 0) {
-        film = merge(film, imageLoad(batch_image, ivec2(pixel)));
+        gather(ivec2(pixel));
     } else {
         for (int y = -push.reach; y <= push.reach; ++y) {
             for (int x = -push.reach; x <= push.reach; ++x) {
@@ -38,10 +57,13 @@ void main() {
                 }
                 vec4 xi = sample_values(push.seed, uvec2(start), push.first_sample, BLOCK_FILM_AND_LENS);
                 if (landing_step(film_offset(xi.xy, push.jitter)) == -ivec2(x, y)) {
-                    film = merge(film, imageLoad(batch_image, start));
+                    gather(start);
                 }
             }
         }
     }
     imageStore(film_image, ivec2(pixel), film);
+    if (IS_ADAPTIVE == 1u) {
+        imageStore(film_moments, ivec2(pixel), vec4(moment));
+    }
 }

@@ -17,6 +17,7 @@ layout(push_constant, std430) uniform ResolvePush {
     uvec2 extent;
     uint preview_stride; // of a lattice of pixels that is filled: (2, 2) + 4 i, or 2 i, or all
     float exposure; // linear factor
+    float count_scale; // where not 0, counts are shown, and this many times the count is white
 } push;
 
 const int SEARCH_RADIUS = 4;
@@ -61,5 +62,6 @@ void main() {
     if (film.w == 0.0) {
         film = nearest_sampled(ivec2(pixel));
     }
-    imageStore(picture_image, ivec2(pixel), vec4(srgb_encode(push.exposure * film.rgb), 1.0));
+    vec3 shown = push.count_scale > 0.0 ? vec3(push.count_scale * film.w) : push.exposure * film.rgb;
+    imageStore(picture_image, ivec2(pixel), vec4(srgb_encode(shown), 1.0));
 }

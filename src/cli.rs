@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::scene::{self, BUILTINS, SceneRef};
-use crate::settings::{DEFAULT_SAMPLES, DeviceChoice, Sampler, Settings};
+use crate::settings::{DEFAULT_SAMPLES, DeviceChoice, Overlay, Sampler, Settings};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -84,6 +84,8 @@ pub struct RenderArgs {
     mut_arg("scene", |scene| scene.help("A built-in scene (see thinlens scenes), .toml or .obj file [default: every built-in one]")),
     mut_arg("samples", |samples| samples.help("Antialiasing points per pixel [default: 16]")),
     mut_arg("size", |size| size.help("Picture size in pixels [default: 128x96]")),
+    mut_arg("noise_threshold", |threshold| threshold.hide(true)),
+    mut_arg("overlay", |overlay| overlay.hide(true)),
     mut_arg("exposure", |exposure| exposure.hide(true))
 )]
 pub struct VerifyArgs {
@@ -133,6 +135,10 @@ pub struct SettingsArgs {
     /// How the points are chosen: sobol keeps a pixel's points apart, random does not [default: sobol]
     #[arg(long, value_name = "sobol|random", value_enum, hide_possible_values = true)]
     sampler: Option<SamplerArg>,
+    /// Stops each pixel whose error is below this share of its brightness, 0.02 say, so that the work goes
+    /// where the noise is; --samples is then the most that a pixel gets [default: 0, none stops]
+    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    noise_threshold: Option<f32>,
     /// Chooses other random points [default: 0]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     seed: Option<u32>,
@@ -140,6 +146,24 @@ pub struct SettingsArgs {
     /// [default: 0]
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true)]
     exposure: Option<f32>,
+    /// Show each pixel's number of samples instead of the picture, in a PNG or the window: black for none,
+    /// white for --samples
+    #[arg(long, value_name = "count", value_enum, hide_possible_values = true)]
+    overlay: Option<OverlayArg>,
+}
+
+/// What is shown instead of the picture.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum OverlayArg {
+    Count,
+}
+
+impl OverlayArg {
+    fn plain(self) -> Overlay {
+        match self {
+            Self::Count => Overlay::Count,
+        }
+    }
 }
 
 /// How sample values are made.
@@ -193,6 +217,8 @@ impl SettingsArgs {
         let proof = |name: &str| {
             let mut settings = self.resolve_scene(name, PROOF_SAMPLES)?;
             settings.estimator.size = self.size.unwrap_or(PROOF_SIZE);
+            // The oracle has no noise to go by: it is held against single samples.
+            settings.estimator.noise_threshold = 0.0;
             Ok(settings)
         };
         names.into_iter().map(proof).collect()
@@ -217,7 +243,9 @@ impl SettingsArgs {
         estimator.max_bounces = self.max_bounces.unwrap_or(estimator.max_bounces);
         estimator.sampler = self.sampler.map_or(estimator.sampler, SamplerArg::plain);
         estimator.seed = self.seed.unwrap_or(estimator.seed);
+        estimator.noise_threshold = self.noise_threshold.unwrap_or(estimator.noise_threshold);
         settings.view.exposure_stops = self.exposure.unwrap_or(settings.view.exposure_stops);
+        settings.view.overlay = self.overlay.map(OverlayArg::plain);
         settings.samples = self.samples.unwrap_or(samples);
         settings.check()?;
         Ok(settings)

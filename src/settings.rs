@@ -53,6 +53,16 @@ pub struct Estimator {
     pub sampler: Sampler,
     /// Chooses the sample values.
     pub seed: u32,
+    /// Where not 0, a pixel stops once the standard error of its mean luminance, as a share of it or of
+    /// 0.05, whichever is more, is below this in every pixel around it.
+    pub noise_threshold: f32,
+}
+
+impl Estimator {
+    /// Whether pixels stop by themselves.
+    pub fn is_adaptive(&self) -> bool {
+        self.noise_threshold > 0.0
+    }
 }
 
 /// How sample values are made.
@@ -71,6 +81,15 @@ pub enum Sampler {
 pub struct View {
     /// Brightness, in stops: the picture is multiplied by two to this power.
     pub exposure_stops: f32,
+    /// What is shown instead of the picture, if anything.
+    pub overlay: Option<Overlay>,
+}
+
+/// What can be shown instead of the picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Overlay {
+    /// Each pixel's number of samples, from black for none to white for as many as wanted.
+    Count,
 }
 
 impl Settings {
@@ -85,9 +104,10 @@ impl Settings {
                 jitter: DEFAULT_JITTER,
                 sampler: Sampler::default(),
                 seed: 0,
+                noise_threshold: 0.0,
                 scene,
             },
-            view: View { exposure_stops: 0.0 },
+            view: View { exposure_stops: 0.0, overlay: None },
             samples: DEFAULT_SAMPLES,
         }
     }
@@ -97,13 +117,14 @@ impl Settings {
     /// # Errors
     /// [`Error::OutOfRange`], naming the option, the value and the range.
     pub fn check(&self) -> Result<()> {
-        let Estimator { lens, size, jitter, max_bounces, .. } = &self.estimator;
+        let Estimator { lens, size, jitter, max_bounces, noise_threshold, .. } = &self.estimator;
         in_range("size: width", size[0], 1, MAX_EXTENT)?;
         in_range("size: height", size[1], 1, MAX_EXTENT)?;
         in_range("lens-diameter", lens.diameter, 0.0, MAX_LENGTH)?;
         in_range("focal-distance", lens.focal_distance, MIN_LENGTH, MAX_LENGTH)?;
         in_range("jitter", *jitter, 0.0, MAX_JITTER)?;
         in_range("max-bounces", *max_bounces, 0, MAX_BOUNCES)?;
+        in_range("noise-threshold", *noise_threshold, 0.0, 1.0)?;
         // Chance lands more than its share in a pixel: by 16 standard deviations, never that many.
         let most = if *jitter > DEFAULT_JITTER { MAX_SAMPLES - (1 << 16) } else { MAX_SAMPLES };
         in_range("samples", self.samples, 1, most)?;

@@ -8,8 +8,8 @@ use common::scenes::BURNING;
 use common::{Gpu, bits, film, probe, prove, render, scene_of, settings_of, small};
 use glam::DVec3;
 use std::sync::Arc;
-use thinlens::gpu_types::{Camera, Counters, SceneData, TracePush, sampler_constant};
-use thinlens::passes::{SceneBuffers, Trace};
+use thinlens::gpu_types::{Camera, Counters, SceneData, TracePush, estimator_constants};
+use thinlens::passes::{Adaptive, SceneBuffers, Trace};
 use thinlens::reference::{self, sampler};
 use thinlens::renderer::schedule::Pass;
 use thinlens::settings::Settings;
@@ -36,11 +36,12 @@ fn record(gpu: &Gpu, settings: &Settings) -> Result<Vec<Vec<[f32; 4]>>> {
     let Settings { estimator, samples, .. } = settings;
     let device = gpu.device();
     let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene))?;
-    let trace = Trace::new(device, gpu.shader("trace"), sampler_constant(estimator.sampler), &scene)?;
+    let trace = Trace::new(device, gpu.shader("trace"), estimator_constants(estimator), &scene)?;
     let counters = Buffer::new(device, "counters", size_of::<Counters>() as u64, Residence::Device)?;
     let batch = Arc::new(Image::rgba32f(device, "batch", estimator.size)?);
     let read = Buffer::new(device, "samples", batch.byte_len(), Residence::Host)?;
-    let bindings = trace.bind(&scene, &batch, &Arc::new(counters))?;
+    let adaptive = Adaptive::new(device, None)?;
+    let bindings = trace.bind(&scene, &batch, &Arc::new(counters), &adaptive, 0)?;
     let mut commands = Commands::new(device)?;
     let one = |first_sample| {
         let push = TracePush {
@@ -53,6 +54,7 @@ fn record(gpu: &Gpu, settings: &Settings) -> Result<Vec<Vec<[f32; 4]>>> {
         };
         let mut recording = commands.begin()?;
         recording.clear(&batch);
+        adaptive.moments().iter().for_each(|moments| recording.clear(moments));
         trace.record(&mut recording, &bindings, &push, estimator.size);
         recording.barrier();
         recording.copy_image(&batch, &read);

@@ -135,7 +135,7 @@ fn the_film_restarts_with_the_estimator_and_not_with_the_view() {
     let sum = |picture: &[u8]| picture.iter().map(|value| u64::from(*value)).sum::<u64>();
     assert!(sum(&bright) > sum(&dark));
 
-    let changes: [fn(&mut Settings); 9] = [
+    let changes: [fn(&mut Settings); 10] = [
         |settings| settings.estimator.lens.diameter *= 2.0,
         |settings| settings.estimator.lens.focal_distance *= 2.0,
         |settings| settings.estimator.camera.eye.y += 1.0,
@@ -144,6 +144,7 @@ fn the_film_restarts_with_the_estimator_and_not_with_the_view() {
         |settings| settings.estimator.max_bounces = 0,
         |settings| settings.estimator.seed = 7,
         |settings| settings.estimator.sampler = Sampler::Random,
+        |settings| settings.estimator.noise_threshold = 0.1,
         |settings| settings.estimator.scene = small("suffern-mirror").estimator.scene,
     ];
     for (number, change) in changes.iter().enumerate() {

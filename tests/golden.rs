@@ -52,6 +52,7 @@ fn resolve(gpu: &Gpu, case: &Case) -> Result<Vec<u8>> {
         extent: case.extent,
         preview_stride: case.preview_stride,
         exposure: case.exposure_stops.exp2(),
+        count_scale: 0.0,
     };
     let read = Buffer::new(device, "read-back", picture.byte_len(), Residence::Host)?;
     let mut recording = commands.begin()?;

@@ -2,7 +2,7 @@
 
 use std::mem::offset_of;
 use thinlens::gpu_types::*;
-use thinlens::passes::{Accumulate, Resolve, Trace};
+use thinlens::passes::{Accumulate, Resolve, Select, Trace};
 use thinlens::vulkan::StructLayout;
 
 /// A twin: name, fields with offsets, and size.
@@ -27,7 +27,7 @@ fn twins() -> Vec<Twin> {
         ),
         twin!("Light", Light, [radiance, is_directional, position_or_direction]),
         twin!("Environment", Environment, [horizon, zenith, ambient]),
-        twin!("Counters", Counters, [rays, rejected_samples]),
+        twin!("Counters", Counters, [rays, rejected_samples, listed_samples]),
         twin!(
             "Camera",
             Camera,
@@ -36,7 +36,8 @@ fn twins() -> Vec<Twin> {
         twin!("Lattice", Lattice, [extent, origin, stride]),
         twin!("TracePush", TracePush, [camera, lattice, seed, max_bounces, first_sample, sample_count]),
         twin!("AccumulatePush", AccumulatePush, [lattice, seed, first_sample, jitter, reach]),
-        twin!("ResolvePush", ResolvePush, [extent, preview_stride, exposure]),
+        twin!("SelectPush", SelectPush, [lattice, threshold]),
+        twin!("ResolvePush", ResolvePush, [extent, preview_stride, exposure, count_scale]),
     ]
 }
 
@@ -59,7 +60,7 @@ fn fault(layout: &StructLayout, (name, fields, size): &Twin) -> Option<String> {
 fn every_struct_of_the_shaders_has_its_twin() {
     let twins = twins();
     let mut seen = Vec::new();
-    for shader in [Trace::SHADER, Accumulate::SHADER, Resolve::SHADER] {
+    for shader in [Trace::SHADER, Accumulate::SHADER, Select::SHADER, Resolve::SHADER] {
         for layout in shader.interface().structs {
             // The block around a runtime array has the array for its one member.
             let block = layout.members.len() == 1 && layout.members[0].1 == 0;
@@ -71,7 +72,12 @@ fn every_struct_of_the_shaders_has_its_twin() {
             seen.push(layout.name);
         }
         let push = shader.interface().push_size as usize;
-        let sizes = [size_of::<TracePush>(), size_of::<AccumulatePush>(), size_of::<ResolvePush>()];
+        let sizes = [
+            size_of::<TracePush>(),
+            size_of::<AccumulatePush>(),
+            size_of::<SelectPush>(),
+            size_of::<ResolvePush>(),
+        ];
         assert!(sizes.contains(&push), "{}: {push} bytes of push constants", shader.name);
         assert!(push <= 128, "{}: Vulkan promises 128 bytes", shader.name);
     }

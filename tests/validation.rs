@@ -4,8 +4,8 @@ mod common;
 
 use common::{Gpu, run, small};
 use std::sync::Arc;
-use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush, sampler_constant};
-use thinlens::passes::{Accumulate, SceneBuffers, Trace};
+use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush, estimator_constants};
+use thinlens::passes::{Accumulate, Adaptive, SceneBuffers, Trace};
 use thinlens::renderer::schedule::Pass;
 use thinlens::vulkan::{Buffer, Commands, Image, Residence};
 
@@ -26,7 +26,7 @@ fn a_deliberate_error_is_caught() {
 fn record_two_passes(gpu: &Gpu, barrier: bool) {
     let settings = small("suffern-boxes");
     let estimator = &settings.estimator;
-    let sampler = sampler_constant(estimator.sampler);
+    let constants = estimator_constants(estimator);
     let device = gpu.device();
     let image = |name| Arc::new(Image::rgba32f(device, name, estimator.size).expect("an image"));
     let (batch, film) = (image("batch"), image("film"));
@@ -34,11 +34,12 @@ fn record_two_passes(gpu: &Gpu, barrier: bool) {
     let counters = Arc::new(Buffer::new(device, "counters", size, Residence::Device).expect("a buffer"));
     let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene)).expect("a scene");
     let (trace, accumulate) = (
-        Trace::new(device, Trace::SHADER, sampler, &scene).expect("trace"),
-        Accumulate::new(device, Accumulate::SHADER, sampler).expect("accumulate"),
+        Trace::new(device, Trace::SHADER, constants, &scene).expect("trace"),
+        Accumulate::new(device, Accumulate::SHADER, constants).expect("accumulate"),
     );
-    let traced = trace.bind(&scene, &batch, &counters).expect("bindings");
-    let accumulated = accumulate.bind(&batch, &film).expect("bindings");
+    let adaptive = Adaptive::new(device, None).expect("images");
+    let traced = trace.bind(&scene, &batch, &counters, &adaptive, 0).expect("bindings");
+    let accumulated = accumulate.bind(&batch, &film, &adaptive, 0).expect("bindings");
 
     let pass = Pass::whole(0, 1, 1);
     let trace_push = TracePush {
@@ -55,6 +56,7 @@ fn record_two_passes(gpu: &Gpu, barrier: bool) {
     let mut recording = commands.begin().expect("a recording");
     recording.clear(&batch);
     recording.clear(&film);
+    adaptive.moments().iter().for_each(|moments| recording.clear(moments));
     trace.record(&mut recording, &traced, &trace_push, estimator.size);
     if barrier {
         recording.barrier();

@@ -12,10 +12,10 @@
 const float BOX_SLACK = 1.0 + 1e-6;
 
 // Nodes on the longest way from the root to a leaf; at each, one group can be left behind.
-layout(constant_id = 9) const uint TREE_DEPTH = 0u; // 0: no tree
-layout(constant_id = 10) const uint TREE_KINDS = 0u; // the kinds of shapes in it, a bit each
+layout(constant_id = 10) const uint TREE_DEPTH = 0u; // 0: no tree
+layout(constant_id = 11) const uint TREE_KINDS = 0u; // the kinds of shapes in it, a bit each
 // A ray that needs more steps is given up: Mesa's software device would end it silently later on.
-layout(constant_id = 11) const uint MOST_TREE_STEPS = 1024u;
+layout(constant_id = 12) const uint MOST_TREE_STEPS = 1024u;
 
 const uint KIND_SPHERE = 0u;
 const uint KIND_BOX = 1u;

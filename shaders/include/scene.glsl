@@ -51,17 +51,17 @@ struct Environment {
 };
 
 // The numbers of things are specialization constants, so that loops over them can unroll.
-layout(constant_id = 1) const uint SPHERE_COUNT = 1u;
-layout(constant_id = 2) const uint BOX_COUNT = 1u;
-layout(constant_id = 3) const uint TRIANGLE_COUNT = 1u;
-layout(constant_id = 4) const uint PLANE_COUNT = 1u;
-layout(constant_id = 5) const uint LIGHT_COUNT = 1u;
-layout(constant_id = 6) const uint SHADOW_LIGHT_COUNT = 1u; // the first so many lights cast shadows
-layout(constant_id = 7) const uint MATERIAL_COUNT = 1u;
+layout(constant_id = 2) const uint SPHERE_COUNT = 1u;
+layout(constant_id = 3) const uint BOX_COUNT = 1u;
+layout(constant_id = 4) const uint TRIANGLE_COUNT = 1u;
+layout(constant_id = 5) const uint PLANE_COUNT = 1u;
+layout(constant_id = 6) const uint LIGHT_COUNT = 1u;
+layout(constant_id = 7) const uint SHADOW_LIGHT_COUNT = 1u; // the first so many lights cast shadows
+layout(constant_id = 8) const uint MATERIAL_COUNT = 1u;
 // Whether the scene is copied to variables before any control flow. Mesa's software device loads from
 // a buffer lane by lane inside loops and branches, and once for all lanes outside of them, which makes
 // rays about three times as fast. A GPU would run out of registers.
-layout(constant_id = 8) const uint SCENE_IS_KEPT = 0u;
+layout(constant_id = 9) const uint SCENE_IS_KEPT = 0u;
 
 layout(set = 0, binding = 2, std430) readonly buffer Spheres { Sphere spheres[]; };
 layout(set = 0, binding = 3, std430) readonly buffer Boxes { Box boxes[]; };

@@ -3,7 +3,7 @@
 #ifndef TRACE_BATCH_GLSL
 #define TRACE_BATCH_GLSL
 
-#include "film.glsl"
+#include "adaptive.glsl"
 #include "sampling.glsl"
 #include "shading.glsl"
 
@@ -22,12 +22,14 @@ layout(push_constant, std430) uniform TraceConstants { TracePush push_constants;
 layout(set = 0, binding = 1, std430) buffer Counters {
     uint rays;
     uint rejected_samples;
+    uint listed_samples; // traced for pixels of the list, whose number the host does not know
 } counters;
 
 // The mean of the samples first_sample .. first_sample + sample_count of the pixel, and in w how
-// many of them were finite.
-vec4 trace_batch(TracePush push, uvec2 pixel) {
+// many of them were finite. moment: that of their luminance, in an adaptive picture.
+vec4 trace_batch(TracePush push, uvec2 pixel, out float moment) {
     vec4 batch = vec4(0.0);
+    moment = 0.0;
     uint rays = 0u;
     uint rejected = 0u;
     for (uint i = 0u; i < push.sample_count; ++i) {
@@ -37,7 +39,11 @@ vec4 trace_batch(TracePush push, uvec2 pixel) {
         Ray ray = primary_ray(push.camera, q, concentric_disk(xi.zw));
         vec3 color = radiance(ray, push.max_bounces, rays);
         if (is_finite(color)) {
-            batch = merge(batch, vec4(color, 1.0));
+            vec4 one = vec4(color, 1.0);
+            if (IS_ADAPTIVE == 1u) {
+                moment = merge_moments(batch, moment, one, 0.0);
+            }
+            batch = merge(batch, one);
         } else {
             ++rejected;
         }
@@ -45,6 +51,9 @@ vec4 trace_batch(TracePush push, uvec2 pixel) {
     atomicAdd(counters.rays, rays);
     if (rejected > 0u) {
         atomicAdd(counters.rejected_samples, rejected);
+    }
+    if (IS_ADAPTIVE == 1u && push.lattice.stride == 0u) {
+        atomicAdd(counters.listed_samples, push.sample_count);
     }
     return batch;
 }

@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::renderer::Progress;
 use crate::scene::{self, BUILTINS, MAX_LENGTH, MIN_LENGTH, SceneRef};
-use crate::settings::{DEFAULT_JITTER, Settings};
+use crate::settings::{DEFAULT_JITTER, Overlay, Settings};
 use imgui::{Condition, SliderFlags, Ui};
 
 /// The points slider goes this far, or as far as was asked for.
@@ -121,6 +121,7 @@ impl Panel {
                 estimator.size = now.estimator.size;
                 estimator.jitter = now.estimator.jitter;
                 (estimator.sampler, estimator.seed) = (now.estimator.sampler, now.estimator.seed);
+                estimator.noise_threshold = now.estimator.noise_threshold;
                 settings.samples = now.samples;
                 settings.view = now.view;
                 self.initial = settings.clone();
@@ -188,6 +189,29 @@ impl Panel {
             "All rays of a pixel aim at one point in focus: edges in the focal plane turn jagged, blur stays.",
         );
 
+        named(
+            ui,
+            "Noise threshold",
+            "A pixel stops once its error is below this share of its brightness, and the work goes where the noise is. 0: none stops.",
+            layout,
+            |id| {
+                ui.slider_config(id, 0.0, 0.2)
+                    .display_format(if estimator.noise_threshold > 0.0 { "%.3f" } else { "off" })
+                    .flags(SliderFlags::ALWAYS_CLAMP)
+                    .build(&mut estimator.noise_threshold);
+            },
+        );
+        let overlay = &mut self.settings.view.overlay;
+        let mut counts = overlay.is_some();
+        if ui.checkbox("Show sample counts", &mut counts) {
+            *overlay = counts.then_some(Overlay::Count);
+        }
+        note_item(ui, "Show sample counts", layout);
+        tooltip(
+            ui,
+            "How many points each pixel has: black for none, white for as many as the slider above says.",
+        );
+
         let stops = &mut self.settings.view.exposure_stops;
         named(
             ui,
@@ -204,7 +228,7 @@ impl Panel {
     }
 
     fn status(&self, ui: &Ui, status: &Status<'_>) {
-        let Progress { samples, traced, device_time, rejected_samples, .. } = status.progress;
+        let Progress { samples, traced, device_time, rejected_samples, active_pixels, .. } = status.progress;
         let target = self.settings.samples;
         imgui::ProgressBar::new(samples as f32 / target as f32)
             .size([-1.0, 0.0])
@@ -215,6 +239,10 @@ impl Panel {
             ui.text(format!("{:.1} M samples per second", traced as f64 / seconds / 1e6));
         } else {
             ui.text("measuring ...");
+        }
+        if let Some(active) = active_pixels {
+            let [width, height] = self.settings.estimator.size.map(u64::from);
+            ui.text(format!("{:.1}% of the pixels go on", 100.0 * active as f64 / (width * height) as f64));
         }
         if rejected_samples > 0 {
             ui.text(format!("{rejected_samples} samples were not finite and are left out"));

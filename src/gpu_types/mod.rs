@@ -103,6 +103,7 @@ pub struct TreeShape {
 pub struct Counters {
     pub rays: u32,
     pub rejected_samples: u32,
+    pub listed_samples: u32,
 }
 
 /// `Camera` of camera.glsl.
@@ -152,6 +153,14 @@ pub struct AccumulatePush {
     pub reach: i32,
 }
 
+/// `SelectPush` of select.comp.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct SelectPush {
+    pub lattice: Lattice,
+    pub threshold: f32,
+}
+
 /// `ResolvePush` of resolve.comp.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
@@ -159,6 +168,12 @@ pub struct ResolvePush {
     pub extent: [u32; 2],
     pub preview_stride: u32,
     pub exposure: f32,
+    pub count_scale: f32,
+}
+
+/// The specialization constants 0 and 1: `SAMPLER` of sampling.glsl, `IS_ADAPTIVE` of adaptive.glsl.
+pub fn estimator_constants(estimator: &Estimator) -> [u32; 2] {
+    [sampler_constant(estimator.sampler), estimator.is_adaptive().into()]
 }
 
 /// `SAMPLER` of sampling.glsl, the specialization constant 0.
@@ -166,6 +181,14 @@ pub fn sampler_constant(sampler: Sampler) -> u32 {
     match sampler {
         Sampler::Random => 0,
         Sampler::Sobol => 1,
+    }
+}
+
+impl Lattice {
+    /// Of the pixels from this column and row of it on.
+    pub fn from_tile(self, at: [u32; 2]) -> Self {
+        let origin = [0, 1].map(|axis| self.origin[axis] + at[axis] * self.stride);
+        Self { origin, ..self }
     }
 }
 

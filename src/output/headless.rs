@@ -76,6 +76,7 @@ fn render_on(instance: &Arc<Instance>, job: &Job, format: PictureFormat) -> Resu
         width,
         height,
         samples_per_pixel: progress.samples,
+        mean_samples_per_pixel: progress.traced as f64 / pixels as f64,
         samples: progress.traced,
         rays: progress.rays,
         rejected_samples: progress.rejected_samples,
@@ -94,10 +95,17 @@ fn render_on(instance: &Arc<Instance>, job: &Job, format: PictureFormat) -> Resu
         );
     }
     if !job.quiet {
+        let samples = if job.settings.estimator.is_adaptive() {
+            format!(
+                "{:.1} samples per pixel, {} at most",
+                stats.mean_samples_per_pixel, stats.samples_per_pixel
+            )
+        } else {
+            format!("{} samples per pixel", stats.samples_per_pixel)
+        };
         say(&format!(
-            "{}: {width}x{height}, {} samples per pixel, {seconds:.2} s, {:.1} M samples/s on {}",
+            "{}: {width}x{height}, {samples}, {seconds:.2} s, {:.1} M samples/s on {}",
             job.output.display(),
-            stats.samples_per_pixel,
             stats.msamples_per_second,
             stats.device,
         ))?;

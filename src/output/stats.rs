@@ -13,8 +13,10 @@ pub struct Stats {
     pub width: u32,
     /// Pixels.
     pub height: u32,
-    /// Samples traced for each pixel.
+    /// Samples traced for each pixel, or for those that went on longest where pixels stop by themselves.
     pub samples_per_pixel: u32,
+    /// Samples traced for a pixel on average.
+    pub mean_samples_per_pixel: f64,
     /// Samples traced over all pixels.
     pub samples: u64,
     /// Rays traced, shadow rays among them.

@@ -1,5 +1,6 @@
 //! Merges the tracing image into the film.
 
+use super::Adaptive;
 use crate::error::Result;
 use crate::gpu_types::AccumulatePush;
 use crate::vulkan::{Binding, BindingSet, ComputePipeline, Device, Image, Recording, Shader, shader};
@@ -12,13 +13,13 @@ impl Accumulate {
     /// The shader.
     pub const SHADER: Shader = shader!("accumulate");
 
-    /// Compiles the pass from its shader, or one with the same interface, for the sampler that the
-    /// samples were made with.
+    /// Compiles the pass from its shader, or one with the same interface, for the constants of the
+    /// estimator that the samples are of.
     ///
     /// # Errors
     /// What Vulkan says.
-    pub fn new(device: &Arc<Device>, shader: Shader, sampler: u32) -> Result<Self> {
-        Ok(Self(ComputePipeline::new(device, shader, &[sampler])?))
+    pub fn new(device: &Arc<Device>, shader: Shader, estimator: [u32; 2]) -> Result<Self> {
+        Ok(Self(ComputePipeline::new(device, shader, &estimator)?))
     }
 
     /// Width and height of a workgroup: tiles are cut at multiples of it.
@@ -26,13 +27,26 @@ impl Accumulate {
         self.0.local_size()
     }
 
-    /// From the tracing image `batch` into `film`.
+    /// From the tracing image `batch` into `film`. Once some pixels have stopped, `list` of `adaptive` holds
+    /// those to merge.
     ///
     /// # Errors
     /// What Vulkan says.
-    pub fn bind(&self, batch: &Arc<Image>, film: &Arc<Image>) -> Result<BindingSet> {
-        let images = [(0, Binding::Image(Arc::clone(batch))), (1, Binding::Image(Arc::clone(film)))];
-        BindingSet::new(&self.0, &images)
+    pub fn bind(
+        &self,
+        batch: &Arc<Image>,
+        film: &Arc<Image>,
+        adaptive: &Adaptive,
+        list: usize,
+    ) -> Result<BindingSet> {
+        let bindings = [
+            (0, Binding::Image(Arc::clone(batch))),
+            (1, Binding::Image(Arc::clone(film))),
+            adaptive.bind_list(13, list),
+            adaptive.bind_batch_moments(),
+            adaptive.bind_film_moments(),
+        ];
+        BindingSet::new(&self.0, &bindings)
     }
 
     /// Merges `extent` pixels of the push constants' lattice.

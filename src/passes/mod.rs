@@ -1,12 +1,17 @@
-//! The three passes, in the order of the data: a pipeline and its `record()` each. A pass, its
+//! The passes, in the order of the data: a pipeline and its `record()` each. Trace, accumulate and resolve
+//! make every picture; select belongs to adaptive ones. A pass, its
 //! shader, its file and its debug label share one name.
 
 mod accumulate;
+mod adaptive;
 mod resolve;
+mod select;
 mod trace;
 
 pub use accumulate::Accumulate;
+pub use adaptive::Adaptive;
 pub use resolve::Resolve;
+pub use select::Select;
 pub use trace::{SceneBuffers, Trace};
 
 use crate::vulkan::Shader;
@@ -18,12 +23,19 @@ pub struct Shaders {
     pub trace: Shader,
     /// Pass 2.
     pub accumulate: Shader,
+    /// Between batches of an adaptive picture.
+    pub select: Shader,
     /// Pass 3.
     pub resolve: Shader,
 }
 
 impl Default for Shaders {
     fn default() -> Self {
-        Self { trace: Trace::SHADER, accumulate: Accumulate::SHADER, resolve: Resolve::SHADER }
+        Self {
+            trace: Trace::SHADER,
+            accumulate: Accumulate::SHADER,
+            select: Select::SHADER,
+            resolve: Resolve::SHADER,
+        }
     }
 }

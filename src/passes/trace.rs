@@ -1,5 +1,6 @@
 //! Traces a batch of samples for each pixel of a lattice into the tracing image.
 
+use super::Adaptive;
 use crate::error::Result;
 use crate::gpu_types::{SceneData, TracePush};
 use crate::vulkan::{
@@ -42,7 +43,7 @@ pub struct SceneBuffers {
 
 impl SceneBuffers {
     /// Which of [`Self::constants`] says whether the shaders copy the scene before they start.
-    pub const KEPT_CONSTANT: usize = 8;
+    pub const KEPT_CONSTANT: usize = 9;
 
     /// Uploads a scene.
     ///
@@ -116,9 +117,10 @@ impl SceneBuffers {
         (0..).zip(front.into_iter().chain(scene).chain(tree)).collect()
     }
 
-    /// The specialization constants of `shaders/include/sampling.glsl` and `scene.glsl`.
-    pub fn constants(&self, sampler: u32) -> Vec<u32> {
-        std::iter::once(sampler)
+    /// The specialization constants: the two of the estimator, and those of
+    /// `shaders/include/scene.glsl` and `bvh.glsl`.
+    pub fn constants(&self, estimator: [u32; 2]) -> Vec<u32> {
+        (estimator.into_iter())
             .chain(self.counts)
             .chain([self.kept.into()])
             .chain(self.tree_constants)
@@ -130,16 +132,22 @@ impl Trace {
     /// The shader.
     pub const SHADER: Shader = shader!("trace");
 
-    /// Compiles the pass from its shader, or one with the same interface, for a sampler and a
-    /// scene's numbers of things.
+    /// Compiles the pass from its shader, or one with the same interface, for the constants of an
+    /// estimator and a scene's numbers of things.
     ///
     /// # Errors
     /// What Vulkan says.
-    pub fn new(device: &Arc<Device>, shader: Shader, sampler: u32, scene: &SceneBuffers) -> Result<Self> {
-        Ok(Self(ComputePipeline::new(device, shader, &scene.constants(sampler))?))
+    pub fn new(
+        device: &Arc<Device>,
+        shader: Shader,
+        estimator: [u32; 2],
+        scene: &SceneBuffers,
+    ) -> Result<Self> {
+        Ok(Self(ComputePipeline::new(device, shader, &scene.constants(estimator))?))
     }
 
-    /// From `scene` into the tracing image `batch`, counting into `counters`.
+    /// From `scene` into the tracing image `batch`, counting into `counters`. Once some pixels have stopped,
+    /// `list` of `adaptive` holds those to trace.
     ///
     /// # Errors
     /// What Vulkan says.
@@ -148,9 +156,13 @@ impl Trace {
         scene: &SceneBuffers,
         batch: &Arc<Image>,
         counters: &Arc<Buffer>,
+        adaptive: &Adaptive,
+        list: usize,
     ) -> Result<BindingSet> {
         let front = [Binding::Image(Arc::clone(batch)), Binding::Buffer(Arc::clone(counters))];
-        BindingSet::new(&self.0, &scene.bindings(front))
+        let mut bindings = scene.bindings(front);
+        bindings.extend([adaptive.bind_list(13, list), adaptive.bind_batch_moments()]);
+        BindingSet::new(&self.0, &bindings)
     }
 
     /// Width and height of a workgroup: tiles are cut at multiples of it.

@@ -1,7 +1,7 @@
 //! The images of one picture size, and what binds them to the passes.
 
 use crate::error::{Error, Result};
-use crate::passes::{Accumulate, Resolve};
+use crate::passes::{Accumulate, Adaptive, Resolve, Select};
 use crate::vulkan::{BindingSet, Device, Image, Recording};
 use std::sync::Arc;
 
@@ -13,7 +13,11 @@ pub(super) struct Film {
     pub(super) film: Arc<Image>,
     /// The resolved picture.
     pub(super) picture: Arc<Image>,
-    pub(super) accumulate: BindingSet,
+    pub(super) adaptive: Adaptive,
+    /// By the list that is read.
+    pub(super) accumulate: [BindingSet; 2],
+    /// Likewise. The other list is written.
+    pub(super) select: [BindingSet; 2],
     pub(super) resolve: BindingSet,
     /// Resolves the tracing image instead of the film.
     pub(super) resolve_preview: BindingSet,
@@ -24,8 +28,8 @@ impl Film {
     pub(super) fn new(
         device: &Arc<Device>,
         size: [u32; 2],
-        accumulate: &Accumulate,
-        resolve: &Resolve,
+        adaptive: bool,
+        (accumulate, select, resolve): (&Accumulate, &Select, &Resolve),
     ) -> Result<Self> {
         let most = device.max_extent();
         if size[0] > most || size[1] > most {
@@ -37,13 +41,18 @@ impl Film {
         let batch = Arc::new(Image::rgba32f(device, "tracing image", size)?);
         let film = Arc::new(Image::rgba32f(device, "accumulation image", size)?);
         let picture = Arc::new(Image::rgba8(device, "picture", size)?);
+        let adaptive = Adaptive::new(device, adaptive.then_some(size))?;
+        let merge = |list| accumulate.bind(&batch, &film, &adaptive, list);
+        let choose = |list| select.bind(&batch, &film, &adaptive, list);
         Ok(Self {
-            accumulate: accumulate.bind(&batch, &film)?,
+            accumulate: [merge(0)?, merge(1)?],
+            select: [choose(0)?, choose(1)?],
             resolve: resolve.bind(&film, &picture)?,
             resolve_preview: resolve.bind(&batch, &picture)?,
             batch,
             film,
             picture,
+            adaptive,
             initialized: false,
         })
     }
@@ -54,6 +63,7 @@ impl Film {
         if !self.initialized {
             recording.clear(&self.film);
             recording.clear(&self.picture);
+            self.adaptive.moments().iter().for_each(|moments| recording.clear(moments));
             self.initialized = true;
         }
         recording.clear(&self.batch);

@@ -8,6 +8,30 @@ use crate::gpu_types::Lattice;
 /// Samples a pixel in one pass, once a picture is under way.
 pub const MAX_BATCH: u32 = 16;
 
+/// An adaptive picture chooses the pixels to go on with whenever it has so many samples a pixel more, but
+/// first when it has twice as many: fewer may all miss what is there.
+const SELECT_EVERY: u32 = 16;
+
+/// Whether pixels may stop at so many samples.
+pub fn selects_at(samples: u32) -> bool {
+    samples >= 2 * SELECT_EVERY && samples.is_multiple_of(SELECT_EVERY)
+}
+
+/// Pixels of the list of active ones that a row of tiles covers, for each row of a workgroup:
+/// `LISTED_ROW_GROUPS` of adaptive.glsl times its width.
+const LISTED_ROW: u32 = 1024;
+
+/// The columns and rows that a list of so many active pixels is traced in, in workgroups of `local`.
+pub fn listed_size(pixels: u64, local: [u32; 2]) -> [u32; 2] {
+    let rows = pixels.div_ceil(u64::from(LISTED_ROW * local[1]));
+    [LISTED_ROW, u32::try_from(rows).unwrap_or(u32::MAX) * local[1]]
+}
+
+/// What a dispatch over the list covers, from the tile's column and row on.
+pub fn listed_lattice(size: [u32; 2], at: [u32; 2], local: [u32; 2]) -> Lattice {
+    Lattice { extent: size, origin: [at[1] * LISTED_ROW + at[0] * local[1], 0], stride: 0, pad0: 0 }
+}
+
 /// Lavapipe silently leaves every loop of an invocation once it has gone round this often, all loops
 /// counted together. A sample that goes round more often would be wrong.
 pub const MAX_LOOP_STEPS: u64 = 65_535;
@@ -55,36 +79,51 @@ pub struct Pass {
     pub phase: u32,
 }
 
-/// Where the work stands: a pass is traced tile by tile, then, if it was the last one of its
-/// samples, merged into the film tile by tile.
+/// What is done with a pass, each tile by tile.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    /// It is traced.
+    Trace,
+    /// If it was the last one of its samples, it is merged into the film.
+    Accumulate,
+    /// The pixels to go on with are listed.
+    Select,
+}
+
+/// Where the work stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Cursor {
     /// The pass under way.
     pub pass: Pass,
-    /// Whether it is traced and being merged.
-    pub accumulating: bool,
-    /// Column and row where the next tile starts: of the lattice while tracing, of the film while
-    /// merging.
+    /// What is done with it.
+    pub stage: Stage,
+    /// Column and row where the next tile starts: of the lattice while tracing, else of the film; or of the
+    /// list of active pixels, once there is one (see [`listed_size`]).
     pub at: [u32; 2],
 }
 
 impl Cursor {
     /// The start of a pass.
     pub fn start(pass: Pass) -> Self {
-        Self { pass, accumulating: false, at: [0, 0] }
+        Self { pass, stage: Stage::Trace, at: [0, 0] }
     }
 
     /// What follows when the pass is traced.
     pub fn after_tracing(self) -> Self {
         match self.pass.next_phase() {
             Some(next) => Self::start(next),
-            None => Self { accumulating: true, ..Self::start(self.pass) },
+            None => self.stage(Stage::Accumulate),
         }
+    }
+
+    /// The start of another stage of the pass.
+    pub fn stage(self, stage: Stage) -> Self {
+        Self { stage, ..Self::start(self.pass) }
     }
 
     /// Whether it is still tracing the first lattice of its samples.
     pub fn is_first_lattice(self) -> bool {
-        self.pass.phase == 0 && !self.accumulating
+        self.pass.phase == 0 && self.stage == Stage::Trace
     }
 }
 

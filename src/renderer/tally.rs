@@ -2,6 +2,7 @@
 
 use crate::error::Result;
 use crate::gpu_types::Counters;
+use crate::passes::Adaptive;
 use crate::vulkan::{Buffer, Device, FRAMES_IN_FLIGHT, Recording, Residence, Timer};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -22,12 +23,14 @@ pub struct Progress {
     pub rejected_samples: u64,
     /// How long the device worked on them.
     pub device_time: Duration,
+    /// How many pixels are still traced, at most: of an adaptive picture, once some have stopped.
+    pub active_pixels: Option<u64>,
 }
 
 /// What a submission does.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Work {
-    /// Samples it traces.
+    /// Samples it traces, but for those of listed pixels.
     pub(super) samples: u64,
     /// What it costs, all told, in samples traced.
     pub(super) cost: u64,
@@ -45,8 +48,18 @@ pub(super) struct Tally {
 struct Frame {
     timer: Timer,
     counters: Buffer,
-    /// Picture, work and start of the submission under way.
-    pending: Option<(u64, Work, Instant)>,
+    /// The number of active pixels.
+    active: Buffer,
+    pending: Option<Pending>,
+}
+
+/// A submission under way.
+struct Pending {
+    picture: u64,
+    work: Work,
+    started: Instant,
+    /// Whether it lists the active pixels anew.
+    lists: bool,
 }
 
 impl Tally {
@@ -58,6 +71,12 @@ impl Tally {
                     device,
                     "counters read-back",
                     size_of::<Counters>() as u64,
+                    Residence::Host,
+                )?,
+                active: Buffer::new(
+                    device,
+                    "active pixels read-back",
+                    Adaptive::LIST_HEADER,
                     Residence::Host,
                 )?,
                 pending: None,
@@ -91,23 +110,29 @@ impl Tally {
         recording.start(&self.frames[frame].timer);
     }
 
+    /// `list`: of the active pixels, if the submission has made it.
     pub(super) fn stop(
         &mut self,
         recording: &mut Recording<'_>,
         frame: usize,
         work: Work,
         counters: &Buffer,
+        list: Option<&Buffer>,
     ) {
         let frame = &mut self.frames[frame];
         recording.stop(&frame.timer);
         recording.barrier();
         recording.copy_buffer(counters, &frame.counters, size_of::<Counters>() as u64);
-        frame.pending = Some((self.picture, work, Instant::now()));
+        if let Some(list) = list {
+            recording.copy_buffer(list, &frame.active, Adaptive::LIST_HEADER);
+        }
+        frame.pending =
+            Some(Pending { picture: self.picture, work, started: Instant::now(), lists: list.is_some() });
     }
 
     pub(super) fn collect(&mut self, frame: usize) -> Result<()> {
         let frame = &mut self.frames[frame];
-        let Some((picture, work, started)) = frame.pending.take() else {
+        let Some(Pending { picture, work, started, lists }) = frame.pending.take() else {
             return Ok(());
         };
         // Without a clock on the queue, the host's has to do.
@@ -120,10 +145,14 @@ impl Tally {
         }
         if picture == self.picture {
             let counters = Counters::from_bytes(frame.counters.bytes());
-            self.sum.traced += work.samples;
+            self.sum.traced += work.samples + u64::from(counters.listed_samples);
             self.sum.rays += u64::from(counters.rays);
             self.sum.rejected_samples += u64::from(counters.rejected_samples);
             self.sum.device_time += elapsed;
+            if lists {
+                let count = bytemuck::pod_read_unaligned::<u32>(&frame.active.bytes()[..4]);
+                self.sum.active_pixels = Some(count.into());
+            }
         }
         Ok(())
     }

@@ -186,10 +186,10 @@ impl Recording<'_> {
         self.barrier();
     }
 
-    /// Sets a whole buffer to zero.
-    pub fn clear_buffer(&mut self, buffer: &Buffer) {
-        // SAFETY: recording is under way; the buffer's size is a multiple of four or ends with it.
-        unsafe { self.device().raw.cmd_fill_buffer(self.raw(), buffer.raw, 0, vk::WHOLE_SIZE, 0) };
+    /// Sets the first `size` bytes to zero.
+    pub fn clear_buffer(&mut self, buffer: &Buffer, size: u64) {
+        // SAFETY: recording is under way; callers give a size within the buffer, a multiple of four.
+        unsafe { self.device().raw.cmd_fill_buffer(self.raw(), buffer.raw, 0, size, 0) };
         self.barrier();
     }
 

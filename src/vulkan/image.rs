@@ -36,6 +36,14 @@ impl Image {
         Self::new(device, name, extent, vk::Format::R32G32B32A32_SFLOAT, 16)
     }
 
+    /// A float a pixel.
+    ///
+    /// # Errors
+    /// [`crate::error::Error::Memory`], or what Vulkan says.
+    pub fn r32f(device: &Arc<Device>, name: &'static str, extent: [u32; 2]) -> Result<Self> {
+        Self::new(device, name, extent, vk::Format::R32_SFLOAT, 4)
+    }
+
     /// Four bytes a pixel, without an encoding of their own.
     ///
     /// # Errors

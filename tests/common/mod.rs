@@ -51,6 +51,7 @@ impl Gpu {
         let shaders = Shaders {
             trace: self.shader("trace"),
             accumulate: self.shader("accumulate"),
+            select: self.shader("select"),
             resolve: self.shader("resolve"),
         };
         Renderer::with_shaders(self.device(), shaders).expect("a renderer")

@@ -1,0 +1,63 @@
+// Adaptive sampling: how far off a pixel's mean may be, and which pixels are still traced.
+
+#ifndef ADAPTIVE_GLSL
+#define ADAPTIVE_GLSL
+
+#include "film.glsl"
+
+layout(constant_id = 1) const uint IS_ADAPTIVE = 0u;
+
+// Once some pixels have stopped, those that have not: how many, then the column and the row of each in 16
+// bits.
+layout(set = 0, binding = 13, std430) readonly buffer ActivePixels { uint active_pixels[]; };
+
+// A dispatch over the list has rows of so many workgroups of 64 (see schedule::LISTED_ROW).
+const uint LISTED_ROW_GROUPS = 128u;
+
+// The pixel of this invocation, if it has one: of the lattice, or, where that has no stride, of the list
+// from origin.x on.
+bool find_pixel(Lattice lattice, out uvec2 pixel) {
+    if (IS_ADAPTIVE == 1u && lattice.stride == 0u) {
+        uint group = gl_WorkGroupID.y * LISTED_ROW_GROUPS + gl_WorkGroupID.x;
+        uint index = lattice.origin.x + 64u * group + gl_LocalInvocationIndex;
+        if (index >= active_pixels[0]) {
+            pixel = uvec2(0u);
+            return false;
+        }
+        uint column_and_row = active_pixels[1u + index];
+        pixel = uvec2(column_and_row & 0xffffu, column_and_row >> 16u);
+        return true;
+    }
+    pixel = lattice_pixel(lattice, gl_GlobalInvocationID.xy);
+    return inside(pixel, lattice.extent);
+}
+
+// Rec. 709.
+float luminance(vec3 color) {
+    return dot(color, vec3(0.2126, 0.7152, 0.0722));
+}
+
+// The second moment, the sum of squared differences from the mean, of two sets of samples together:
+// T. Chan, G. Golub, R. LeVeque, "Updating Formulae and a Pairwise Algorithm for Computing Sample
+// Variances", 1979. film and batch are their means and counts before they are merged.
+float merge_moments(vec4 film, float film_moment, vec4 batch, float batch_moment) {
+    if (film.w == 0.0) {
+        return batch_moment;
+    }
+    if (batch.w == 0.0) {
+        return film_moment;
+    }
+    float apart = luminance(batch.rgb) - luminance(film.rgb);
+    return film_moment + batch_moment + apart * apart * (film.w * batch.w / (film.w + batch.w));
+}
+
+// Below this luminance an error counts as one of this luminance: the eye sees none that are finer.
+const float DARKEST = 0.05;
+
+// The standard error of a pixel's mean luminance, as a share of it.
+float relative_error(vec4 film, float moment) {
+    float variance_of_mean = moment / (film.w * (film.w - 1.0));
+    return film.w < 2.0 ? 1e30 : sqrt(variance_of_mean) / max(luminance(film.rgb), DARKEST);
+}
+
+#endif

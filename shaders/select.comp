@@ -1,0 +1,63 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// Between batches of an adaptive picture: lists the pixels to go on with. One stops when its error and
+// that of every pixel around it are small enough, so that no edge stops because its samples happened to
+// fall on one side. A pixel that has stopped never starts again.
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+#include "adaptive.glsl"
+
+layout(set = 0, binding = 0, rgba32f) writeonly uniform image2D batch_image;
+layout(set = 0, binding = 1, rgba32f) readonly uniform image2D film_image;
+layout(set = 0, binding = 15, r32f) readonly uniform image2D film_moments;
+
+layout(set = 0, binding = 14, std430) buffer KeptPixels { uint kept_pixels[]; }; // as the active ones
+
+layout(push_constant, std430) uniform SelectPush {
+    Lattice lattice;
+    float threshold;
+} push;
+
+// How far around a pixel all must be still enough.
+const int DILATION = 1;
+
+shared uint kept_in_group;
+shared uint first_of_group;
+
+bool has_noise_around(ivec2 pixel) {
+    for (int y = -DILATION; y <= DILATION; ++y) {
+        for (int x = -DILATION; x <= DILATION; ++x) {
+            ivec2 near = clamp(pixel + ivec2(x, y), ivec2(0), ivec2(push.lattice.extent) - 1);
+            if (relative_error(imageLoad(film_image, near), imageLoad(film_moments, near).r) >= push.threshold) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+void main() {
+    if (gl_LocalInvocationIndex == 0u) {
+        kept_in_group = 0u;
+    }
+    barrier();
+    uvec2 pixel;
+    bool is_active = find_pixel(push.lattice, pixel);
+    bool kept = is_active && has_noise_around(ivec2(pixel));
+    if (is_active && !kept) {
+        // No neighbour may gather from it what it traced last.
+        imageStore(batch_image, ivec2(pixel), vec4(0.0));
+    }
+    uint place = kept ? atomicAdd(kept_in_group, 1u) : 0u;
+    barrier();
+    // One addition for the group keeps its pixels together, and the list in coherent runs.
+    if (gl_LocalInvocationIndex == 0u) {
+        first_of_group = atomicAdd(kept_pixels[0], kept_in_group);
+    }
+    barrier();
+    if (kept) {
+        kept_pixels[1u + first_of_group + place] = pixel.x | pixel.y << 16u;
+    }
+}

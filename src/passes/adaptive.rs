@@ -1,0 +1,57 @@
+//! What an adaptive picture needs besides tracing and accumulation image: see
+//! `shaders/include/adaptive.glsl`.
+
+use crate::error::Result;
+use crate::vulkan::{Binding, Buffer, Device, Image, Residence};
+use std::sync::Arc;
+
+/// Second moments and lists of pixels; of one pixel, where the picture is not adaptive.
+pub struct Adaptive {
+    /// Of the samples in the tracing and in the accumulation image.
+    moments: [Arc<Image>; 2],
+    /// The active pixels, and those of the selection before or after: their number, then a pixel each.
+    lists: [Arc<Buffer>; 2],
+}
+
+impl Adaptive {
+    /// Bytes of a list before its first pixel.
+    pub const LIST_HEADER: u64 = size_of::<u32>() as u64;
+
+    /// For an adaptive picture of this size, or one that is not adaptive.
+    ///
+    /// # Errors
+    /// [`crate::error::Error::Memory`], or what Vulkan says.
+    pub fn new(device: &Arc<Device>, size: Option<[u32; 2]>) -> Result<Self> {
+        let size = size.unwrap_or([1, 1]);
+        let moments = |name| Image::r32f(device, name, size).map(Arc::new);
+        let bytes = Self::LIST_HEADER * (1 + u64::from(size[0]) * u64::from(size[1]));
+        let list = || Buffer::new(device, "active pixels", bytes, Residence::Device).map(Arc::new);
+        Ok(Self {
+            moments: [moments("moments of the tracing image")?, moments("moments of the film")?],
+            lists: [list()?, list()?],
+        })
+    }
+
+    /// The second moments, of the tracing and of the accumulation image.
+    pub fn moments(&self) -> &[Arc<Image>; 2] {
+        &self.moments
+    }
+
+    /// One of the two lists.
+    pub fn list(&self, list: usize) -> &Buffer {
+        &self.lists[list]
+    }
+
+    /// One of the lists, bound there.
+    pub fn bind_list(&self, binding: u32, list: usize) -> (u32, Binding) {
+        (binding, Binding::Buffer(Arc::clone(&self.lists[list])))
+    }
+
+    pub(super) fn bind_batch_moments(&self) -> (u32, Binding) {
+        (14, Binding::Image(Arc::clone(&self.moments[0])))
+    }
+
+    pub(super) fn bind_film_moments(&self) -> (u32, Binding) {
+        (15, Binding::Image(Arc::clone(&self.moments[1])))
+    }
+}

@@ -1,0 +1,61 @@
+//! Lists the pixels of an adaptive picture that are still to be traced.
+
+use super::Adaptive;
+use crate::error::Result;
+use crate::gpu_types::SelectPush;
+use crate::vulkan::{Binding, BindingSet, ComputePipeline, Device, Image, Recording, Shader, shader};
+use std::sync::Arc;
+
+/// What follows pass 2 between the batches of an adaptive picture. See `shaders/select.comp`.
+pub struct Select(ComputePipeline);
+
+impl Select {
+    /// The shader.
+    pub const SHADER: Shader = shader!("select");
+
+    /// Compiles the pass from its shader, or one with the same interface.
+    ///
+    /// # Errors
+    /// What Vulkan says.
+    pub fn new(device: &Arc<Device>, shader: Shader, estimator: [u32; 2]) -> Result<Self> {
+        Ok(Self(ComputePipeline::new(device, shader, &estimator)?))
+    }
+
+    /// Width and height of a workgroup: tiles are cut at multiples of it.
+    pub fn local_size(&self) -> [u32; 2] {
+        self.0.local_size()
+    }
+
+    /// From the pixels that `list` of `adaptive` holds, by `film`, to the other list. In the tracing image
+    /// `batch` those that stop are emptied.
+    ///
+    /// # Errors
+    /// What Vulkan says.
+    pub fn bind(
+        &self,
+        batch: &Arc<Image>,
+        film: &Arc<Image>,
+        adaptive: &Adaptive,
+        list: usize,
+    ) -> Result<BindingSet> {
+        let bindings = [
+            (0, Binding::Image(Arc::clone(batch))),
+            (1, Binding::Image(Arc::clone(film))),
+            adaptive.bind_list(13, list),
+            adaptive.bind_list(14, 1 - list),
+            adaptive.bind_film_moments(),
+        ];
+        BindingSet::new(&self.0, &bindings)
+    }
+
+    /// Chooses among `extent` pixels of the push constants' lattice.
+    pub fn record(
+        &self,
+        recording: &mut Recording<'_>,
+        bindings: &BindingSet,
+        push: &SelectPush,
+        extent: [u32; 2],
+    ) {
+        recording.dispatch(&self.0, bindings, bytemuck::bytes_of(push), extent);
+    }
+}

@@ -1,0 +1,221 @@
+//! Adaptive sampling: where pixels stop, what that saves, and what it must not change.
+
+mod common;
+
+use anyhow::{Result, ensure};
+use common::scenes::EVERYTHING;
+use common::{Gpu, bits, film, pixels, plain_scene_of, prove, render, small};
+use glam::Vec3;
+use std::time::Duration;
+use thinlens::reference::Reference;
+use thinlens::reference::tone::srgb;
+use thinlens::renderer::Pace;
+use thinlens::scene::{Background, SceneRef};
+use thinlens::settings::{Overlay, Settings};
+
+/// Pixels may stop at multiples of 16 samples, from 32 on.
+const CUTS: [usize; 3] = [32, 48, 64];
+
+fn luminance(color: [f64; 3]) -> f64 {
+    0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2]
+}
+
+/// The standard error of the mean over the mean, or over 0.05: by two passes over the samples.
+fn relative_error(samples: &[f64]) -> f64 {
+    let count = samples.len() as f64;
+    let mean = samples.iter().sum::<f64>() / count;
+    let moment: f64 = samples.iter().map(|sample| (sample - mean).powi(2)).sum();
+    (moment / (count * (count - 1.0))).sqrt() / mean.max(0.05)
+}
+
+/// How many samples each pixel gets, by the oracle's samples. At home, so that none lands elsewhere.
+fn expected_counts(settings: &Settings) -> Vec<usize> {
+    let size @ [width, height] = settings.estimator.size.map(|edge| edge as usize);
+    let reference = Reference::new(&settings.estimator);
+    let of_pixel = |pixel| {
+        let sample = |index| luminance(reference.sample(pixel, index).radiance.to_array());
+        (0..settings.samples).map(sample).collect::<Vec<_>>()
+    };
+    let samples: Vec<Vec<f64>> = pixels(settings.estimator.size).map(of_pixel).collect();
+    let mut counts = vec![CUTS[0]; width * height];
+    let mut active = vec![true; width * height];
+    for cut in CUTS.into_iter().filter(|cut| *cut < settings.samples as usize) {
+        let noisy: Vec<bool> = (counts.iter().zip(&samples))
+            .map(|(count, samples)| {
+                relative_error(&samples[..*count]) >= f64::from(settings.estimator.noise_threshold)
+            })
+            .collect();
+        let near = |at: usize, edge: usize| at.saturating_sub(1)..(at + 2).min(edge);
+        for (place, active) in active.iter_mut().enumerate() {
+            let (x, y) = (place % width, place / width);
+            *active &= near(y, size[1]).any(|y| near(x, size[0]).any(|x| noisy[y * width + x]));
+        }
+        for (count, _) in counts.iter_mut().zip(&active).filter(|(_, active)| **active) {
+            *count = (cut + 16).min(settings.samples as usize);
+        }
+    }
+    counts
+}
+
+fn adaptive(scene: &str, threshold: f32) -> Settings {
+    let mut settings = small(scene);
+    settings.estimator.noise_threshold = threshold;
+    settings.samples = 64;
+    settings
+}
+
+/// Catches a wrong second moment, error, threshold, neighbourhood or cut: every pixel stops where the
+/// oracle's samples say. A share may differ, for a sample next to an edge does.
+#[test]
+fn pixels_stop_where_their_samples_say() {
+    let check = |gpu: &Gpu| -> Result<String> {
+        let mut figures = Vec::new();
+        // So dark that errors count by the least luminance.
+        let mut dark = plain_scene_of(EVERYTHING);
+        dark.lights.iter_mut().for_each(|light| light.radiance *= 0.02);
+        dark.ambient *= 0.02;
+        dark.background = Background { horizon: 0.01 * Vec3::ONE, zenith: 0.02 * Vec3::ONE };
+        let mut dim = adaptive("version-4", 0.01);
+        dim.estimator.camera = dark.camera;
+        dim.estimator.lens = dark.lens;
+        dim.estimator.scene = SceneRef::new(dark);
+        let scenes = [
+            ("version-4", adaptive("version-4", 0.08)),
+            ("suffern-boxes", adaptive("suffern-boxes", 0.08)),
+            ("suffern-mirror", adaptive("suffern-mirror", 0.05)),
+            ("in the dark", dim),
+        ];
+        for (scene, settings) in scenes {
+            let got = film(gpu, &settings);
+            let expected = expected_counts(&settings);
+            let differ =
+                got.iter().zip(&expected).filter(|(got, expected)| got[3] != **expected as f32).count();
+            let of_each = CUTS.map(|cut| expected.iter().filter(|count| **count == cut).count());
+            figures.push(format!("{scene}: {of_each:?} pixels stop at {CUTS:?} samples, {differ} differ"));
+            ensure!(of_each[0] > 100 && of_each[2] > 100, "{}: nothing to tell", figures.join("; "));
+            ensure!(differ * 50 <= got.len(), "{}", figures.join("; "));
+        }
+        Ok(figures.join("; "))
+    };
+    prove(
+        check,
+        &[
+            "error_of_a_sample",
+            "error_without_the_mean",
+            "moments_of_batches_apart_forgotten",
+            "moments_of_samples_forgotten",
+            "stops_without_its_neighbours",
+            "no_darkest",
+        ],
+    );
+}
+
+/// Catches an adaptive picture that adds other samples, or the same in another order, than one that is
+/// not: a threshold that no pixel is below gives the same bits, and stopped pixels hold what they held.
+#[test]
+fn what_does_not_stop_is_what_it_was() {
+    let gpu = Gpu::new();
+    for jitter in [1.0, 3.0] {
+        let mut settings = adaptive("version-4", 1e-30);
+        settings.estimator.jitter = jitter;
+        // Any pixel without noise would stop.
+        settings.estimator.scene = common::scene_of(EVERYTHING);
+        settings.estimator.camera = settings.estimator.scene.camera;
+        settings.estimator.lens.diameter = 3.0;
+        let got = film(&gpu, &settings);
+        settings.estimator.noise_threshold = 0.0;
+        let uniform = film(&gpu, &settings);
+        let same = bits(&got).iter().zip(bits(&uniform)).filter(|(got, uniform)| **got == *uniform).count();
+        let stopped = got.iter().zip(&uniform).filter(|(got, uniform)| got[3] < uniform[3]).count();
+        assert!(same + stopped >= got.len(), "jitter {jitter}: {same} the same, {stopped} stopped");
+        assert!(same * 2 > got.len(), "jitter {jitter}: {same} of {} are the same", got.len());
+    }
+}
+
+/// Catches a list that follows the order of execution, tiles that lose pixels of the list, and a sum of
+/// samples that is not what the film holds.
+#[test]
+fn tiles_previews_and_pauses_change_no_count() {
+    let gpu = Gpu::new();
+    for (jitter, size) in [(1.0, [64, 48]), (1.0, [37, 51]), (2.5, [37, 51]), (1.0, [160, 90])] {
+        let mut settings = adaptive("version-4", 0.03);
+        settings.estimator.jitter = jitter;
+        settings.estimator.size = size;
+        let expected = bits(&film(&gpu, &settings));
+        for preview in [false, true] {
+            let pace = Pace { budget: Duration::ZERO, preview };
+            let mut renderer = gpu.renderer();
+            renderer.set(&settings).expect("valid settings");
+            renderer.render_at(pace, |_| ()).expect("a rendering");
+            let got = renderer.read_film().expect("a film");
+            assert!(bits(&got) == expected, "jitter {jitter}, size {size:?}, preview {preview}");
+            let in_film: f64 = got.iter().map(|texel| f64::from(texel[3])).sum();
+            let traced = renderer.progress().traced as f64;
+            // What a wide jitter throws over the edge is traced all the same.
+            let lost = traced - in_film;
+            assert!(lost == 0.0 || jitter > 1.0 && lost > 0.0, "{traced} traced, {in_film} in the film");
+        }
+    }
+}
+
+/// Catches counts that are shown as something else than the share of what is wanted.
+#[test]
+fn counts_can_be_looked_at() {
+    let gpu = Gpu::new();
+    let mut settings = adaptive("version-4", 0.08);
+    settings.view.overlay = Some(Overlay::Count);
+    let mut renderer = gpu.renderer();
+    let film = render(&mut renderer, &settings).expect("a film");
+    let picture = renderer.read_picture().expect("a picture");
+    for (texel, shown) in film.iter().zip(picture.chunks_exact(4)) {
+        let expected = 255.0 * srgb(f64::from(texel[3]) / 64.0);
+        let off = shown[..3].iter().map(|value| (f64::from(*value) - expected).abs()).fold(0.0, f64::max);
+        assert!(off <= 1.0, "{} samples are shown as {shown:?}", texel[3]);
+    }
+}
+
+/// Catches a picture that goes on after its last pixel has stopped, and one that starts again there.
+#[test]
+fn a_picture_without_noise_stops_early() {
+    let gpu = Gpu::new();
+    let mut settings = adaptive("version-4", 1.0);
+    settings.samples = 4096;
+    let mut renderer = gpu.renderer();
+    let film = render(&mut renderer, &settings).expect("a film");
+    assert!(film.iter().all(|texel| texel[3] == 32.0));
+    let progress = renderer.progress();
+    assert_eq!((progress.samples, progress.active_pixels), (32, Some(0)));
+    settings.samples = 8192;
+    renderer.set(&settings).expect("valid settings");
+    assert!(renderer.finished(), "a higher ceiling changes nothing");
+    settings.estimator.noise_threshold = 0.01;
+    renderer.set(&settings).expect("valid settings");
+    assert!(!renderer.finished(), "another threshold starts anew");
+}
+
+/// Catches adaptive sampling that does not pay: as small an error as with the same number of samples
+/// everywhere, for at most 60% of them.
+#[test]
+fn the_same_error_for_fewer_samples() {
+    let gpu = Gpu::new();
+    let mut settings = small("version-4");
+    settings.estimator.size = [320, 180];
+    settings.samples = 3000;
+    settings.estimator.seed = 99;
+    let converged = film(&gpu, &settings);
+    settings.estimator.seed = 0;
+    let rmse = |film: &[[f32; 4]]| {
+        let squares = film.iter().zip(&converged).flat_map(|(got, expected)| {
+            [0, 1, 2].map(|channel| f64::from(got[channel] - expected[channel]).powi(2))
+        });
+        (squares.sum::<f64>() / (3 * converged.len()) as f64).sqrt()
+    };
+    settings.samples = 256;
+    let uniform = rmse(&film(&gpu, &settings));
+    (settings.samples, settings.estimator.noise_threshold) = (1024, 0.05);
+    let adaptive = film(&gpu, &settings);
+    let mean = adaptive.iter().map(|texel| f64::from(texel[3])).sum::<f64>() / adaptive.len() as f64;
+    let error = rmse(&adaptive);
+    println!("an error of {error:.5} with {mean:.1} samples a pixel, of {uniform:.5} with 256 everywhere");
+    assert!(error <= uniform && mean <= 0.6 * 256.0);
+}
