@@ -64,6 +64,7 @@ impl Viewer {
             .args(["view", "--validation", "--size", &format!("{}x{}", size[0], size[1])])
             .args(arguments)
             .env("DISPLAY", &display)
+            .env("XDG_CACHE_HOME", common::CACHE)
             .env_remove("WAYLAND_DISPLAY")
             .env_remove("WAYLAND_SOCKET")
             .env("RUST_LOG", "thinlens=trace")
