@@ -17,6 +17,7 @@
 //! - [`reference`](mod@reference) is the renderer again, in f64 on the CPU: the oracle that [`verify`] and the
 //!   tests hold the device against. It shares no code with the device's side.
 //! - [`vulkan`] wraps the driver and is the only unsafe code.
+//! - [`pending_file`] writes files that appear whole or not at all.
 //!
 //! The optics are those of K. Suffern, *Ray Tracing from the Ground Up*, chapter 10: a centre ray
 //! finds the point in focus, a primary ray from a point of the lens goes through it. See
@@ -28,6 +29,7 @@ pub mod error;
 pub mod gpu_types;
 pub mod output;
 pub mod passes;
+pub mod pending_file;
 pub mod reference;
 pub mod renderer;
 pub mod scene;

@@ -132,6 +132,7 @@ fn added(before: &[[f64; 4]], after: &[[f64; 4]]) -> Vec<[f64; 4]> {
 pub fn run(pictures: &[Settings], choice: &DeviceChoice) -> Result<String> {
     let instance = Instance::new(choice.validation, None)?;
     let device = Device::open(&instance, choice.device.as_deref(), None)?;
+    device.keep_pipelines();
     let mut renderer = Renderer::new(&device)?;
     let mut lines = vec![format!("{} ({})", device.info().name, device.info().driver)];
     for settings in pictures {

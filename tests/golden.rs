@@ -11,8 +11,9 @@ use common::{Gpu, decode_png, pixels, probe, prove};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use thinlens::gpu_types::ResolvePush;
-use thinlens::output::{PendingFile, write_png};
+use thinlens::output::write_png;
 use thinlens::passes::Resolve;
+use thinlens::pending_file::PendingFile;
 use thinlens::vulkan::{Binding, BindingSet, Buffer, Commands, ComputePipeline, Image, Residence};
 
 const BLESS: &str = "THINLENS_BLESS";

@@ -4,10 +4,10 @@
 use std::path::Path;
 
 /// A module and what it may use of the crate, besides `error`.
-const ARROWS: [(&str, &[&str]); 12] = [
+const ARROWS: [(&str, &[&str]); 13] = [
     ("cli", &["settings", "scene"]),
     ("app", &["renderer", "output", "settings", "scene", "vulkan"]),
-    ("output", &["renderer", "settings", "scene", "vulkan"]),
+    ("output", &["renderer", "settings", "scene", "vulkan", "pending_file"]),
     ("renderer", &["passes", "gpu_types", "settings", "scene", "vulkan"]),
     ("passes", &["vulkan", "gpu_types"]),
     ("gpu_types", &["scene", "settings"]),
@@ -15,7 +15,8 @@ const ARROWS: [(&str, &[&str]); 12] = [
     ("reference", &["scene", "settings"]),
     ("settings", &["scene"]),
     ("scene", &[]),
-    ("vulkan", &[]),
+    ("vulkan", &["pending_file"]),
+    ("pending_file", &[]),
     ("error", &[]),
 ];
 

@@ -28,6 +28,7 @@ impl Graphics {
     pub(super) fn new(window: &Arc<Window>, instance: &Arc<Instance>, device: Option<&str>) -> Result<Self> {
         let surface = Surface::new(instance, window)?;
         let device = Device::open(instance, device, Some(&surface))?;
+        device.keep_pipelines();
         Ok(Self {
             overlay: None,
             swapchain: None,

@@ -1,13 +1,12 @@
-//! Picture files. A file appears whole or not at all.
+//! Picture files.
 
-use crate::error::{Error, Result};
+use crate::error::Result;
+use crate::pending_file::{PendingFile, cannot_write};
 use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, WritableImage,
 };
-use std::ffi::OsString;
-use std::fs::File;
-use std::io::{Cursor, Write};
-use std::path::{Path, PathBuf};
+use std::io::Cursor;
+use std::path::Path;
 
 /// The formats of pictures, chosen by the file's name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,20 +32,23 @@ impl PictureFormat {
 /// left out.
 ///
 /// # Errors
-/// [`Error::Write`].
+/// [`crate::error::Error::Write`].
 pub fn write_png(file: PendingFile, [width, height]: [u32; 2], rgba: &[u8]) -> Result<()> {
     let rgb: Vec<u8> = rgba.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
     let encode = || -> Result<Vec<u8>, png::EncodingError> {
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, width, height);
         encoder.set_color(png::ColorType::Rgb);
+        // Some twenty times as fast as the default, which would take a fifth of the time of a quick look
+        // from start to file; a picture with little noise grows by a seventh.
+        encoder.set_compression(png::Compression::Fast);
         encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
         let mut writer = encoder.write_header()?;
         writer.write_image_data(&rgb)?;
         writer.finish()?;
         Ok(bytes)
     };
-    let bytes = encode().map_err(|error| failed(&file.path, &error))?;
+    let bytes = encode().map_err(|error| cannot_write(file.path(), &error))?;
     file.write(&bytes)
 }
 
@@ -54,7 +56,7 @@ pub fn write_png(file: PendingFile, [width, height]: [u32; 2], rgba: &[u8]) -> R
 /// channels R, G, B and count.
 ///
 /// # Errors
-/// [`Error::Write`].
+/// [`crate::error::Error::Write`].
 pub fn write_exr(file: PendingFile, [width, height]: [u32; 2], film: &[[f32; 4]]) -> Result<()> {
     let channel = |name: &str, index: usize| {
         let values = film.iter().map(|pixel| pixel[index]).collect();
@@ -69,53 +71,6 @@ pub fn write_exr(file: PendingFile, [width, height]: [u32; 2], film: &[[f32; 4]]
     );
     let mut bytes = Cursor::new(Vec::new());
     let written = Image::from_layer(layer).write().to_buffered(&mut bytes);
-    written.map_err(|error| failed(&file.path, &error))?;
+    written.map_err(|error| cannot_write(file.path(), &error))?;
     file.write(bytes.get_ref())
-}
-
-/// A file that is written beside its place and renamed, so that nobody sees half of it. Made before
-/// the work, so that a wrong path is known before it.
-pub struct PendingFile {
-    path: PathBuf,
-    part: PathBuf,
-    file: File,
-}
-
-impl PendingFile {
-    /// Creates the file beside `path`.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
-    pub fn create(path: &Path) -> Result<Self> {
-        if path.is_dir() {
-            return Err(failed(path, &"it is a folder"));
-        }
-        let mut name = OsString::from(".");
-        name.push(path.file_name().unwrap_or_default());
-        name.push(format!(".{}.part", std::process::id()));
-        let part = path.with_file_name(name);
-        let file = File::create(&part).map_err(|error| failed(path, &error))?;
-        Ok(Self { path: path.to_path_buf(), part, file })
-    }
-
-    /// Writes it whole and puts it in its place.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
-    pub fn write(mut self, bytes: &[u8]) -> Result<()> {
-        let written = self.file.write_all(bytes).and_then(|()| self.file.sync_all());
-        let placed = written.and_then(|()| std::fs::rename(&self.part, &self.path));
-        placed.map_err(|error| failed(&self.path, &error))
-    }
-}
-
-impl Drop for PendingFile {
-    fn drop(&mut self) {
-        // Gone already where it was put in its place.
-        let _ = std::fs::remove_file(&self.part);
-    }
-}
-
-fn failed(path: &Path, reason: &dyn std::fmt::Display) -> Error {
-    Error::Write { path: path.to_path_buf(), reason: reason.to_string() }
 }

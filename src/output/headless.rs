@@ -1,8 +1,9 @@
 //! Renders settings to a file.
 
 use super::progress::ProgressDisplay;
-use super::{PendingFile, PictureFormat, Stats, say, write_exr, write_png};
+use super::{PictureFormat, Stats, say, write_exr, write_png};
 use crate::error::{Error, Result};
+use crate::pending_file::PendingFile;
 use crate::renderer::Renderer;
 use crate::settings::{DeviceChoice, Settings};
 use crate::vulkan::{Device, Instance};
@@ -57,6 +58,7 @@ fn render_on(instance: &Arc<Instance>, job: &Job, format: PictureFormat) -> Resu
     let output = PendingFile::create(&job.output)?;
     let stats_output = job.stats.as_deref().map(PendingFile::create).transpose()?;
     let device = Device::open(instance, job.device.device.as_deref(), None)?;
+    device.keep_pipelines();
     let size @ [width, height] = job.settings.estimator.size;
     let mut renderer = Renderer::new(&device)?;
     renderer.set(&job.settings)?;

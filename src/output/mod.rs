@@ -6,7 +6,7 @@ mod list;
 mod progress;
 mod stats;
 
-pub use file::{PendingFile, PictureFormat, write_exr, write_png};
+pub use file::{PictureFormat, write_exr, write_png};
 pub use headless::{Job, render, render_instead};
 pub use list::{list_devices, list_scenes};
 pub use progress::{load, loading_line};

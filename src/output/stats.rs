@@ -1,7 +1,7 @@
 //! What `--stats` writes.
 
-use super::PendingFile;
 use crate::error::Result;
+use crate::pending_file::PendingFile;
 use serde::Serialize;
 
 /// Figures of a finished picture.

@@ -1,5 +1,6 @@
 //! Choosing a device, and what belongs to it: its queue and its allocator.
 
+use super::pipeline_cache::{PipelineCache, user_cache_folder};
 use super::swapchain::Surface;
 use super::{Instance, check};
 use crate::error::{Error, Result};
@@ -7,7 +8,8 @@ use ash::{ext, khr, vk};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use std::ffi::CStr;
 use std::mem::ManuallyDrop;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::path::Path;
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// How many storage buffers the trace pass binds. Vulkan promises four; every known driver of
 /// Vulkan 1.3 has more.
@@ -44,6 +46,7 @@ pub struct Device {
     /// Nanoseconds a timestamp tick; 0 where the queue has no timestamps.
     pub(super) timestamp_period: f32,
     allocator: ManuallyDrop<Arc<Mutex<Allocator>>>,
+    cache: OnceLock<PipelineCache>,
     info: DeviceInfo,
     max_extent: u32,
     max_texels: u32,
@@ -206,12 +209,37 @@ impl Device {
             queue_family: info.queue_family,
             timestamp_period: if timestamps { limits.timestamp_period } else { 0.0 },
             allocator: ManuallyDrop::new(Arc::new(Mutex::new(allocator))),
+            cache: OnceLock::new(),
             max_extent: limits.max_image_dimension2_d,
             max_texels: limits.max_texel_buffer_elements,
             info: info.clone(),
             instance: Arc::clone(instance),
             raw,
         }))
+    }
+
+    /// Keeps compiled pipelines in a file of this folder from one run to the next: what is there is
+    /// used from now on, and what is there at the end is written when the device goes. A file that cannot be
+    /// read or written is a line in the log and no failure.
+    pub fn keep_pipelines_in(&self, folder: &Path) {
+        self.cache.get_or_init(|| PipelineCache::load(self, folder));
+    }
+
+    /// Likewise, in the user's cache folder, if there is one.
+    pub fn keep_pipelines(&self) {
+        if let Some(folder) = user_cache_folder() {
+            self.keep_pipelines_in(&folder);
+        }
+    }
+
+    /// What this device is and can, as its driver says.
+    pub(super) fn properties(&self) -> vk::PhysicalDeviceProperties {
+        // SAFETY: the device is of this instance.
+        unsafe { self.instance.raw.get_physical_device_properties(self.physical) }
+    }
+
+    pub(super) fn pipeline_cache(&self) -> vk::PipelineCache {
+        self.cache.get().map_or_else(vk::PipelineCache::null, PipelineCache::raw)
     }
 
     /// What device it is.
@@ -270,6 +298,10 @@ impl Drop for Device {
         // memory before the device goes, and is not touched again.
         unsafe {
             let _ = self.raw.device_wait_idle();
+            if let Some(cache) = self.cache.take() {
+                cache.save(&self.raw);
+                cache.destroy(&self.raw);
+            }
             ManuallyDrop::drop(&mut self.allocator);
             self.raw.destroy_device(None);
         }

@@ -12,6 +12,7 @@ mod device;
 mod image;
 mod instance;
 mod pipeline;
+mod pipeline_cache;
 mod reflection;
 mod swapchain;
 mod timing;

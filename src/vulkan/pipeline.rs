@@ -132,7 +132,7 @@ impl ComputePipeline {
                 .name(c"main")
                 .specialization_info(&specialization);
             let info = [vk::ComputePipelineCreateInfo::default().stage(stage).layout(self.layout)];
-            let created = self.device.raw.create_compute_pipelines(vk::PipelineCache::null(), &info, None);
+            let created = self.device.raw.create_compute_pipelines(self.device.pipeline_cache(), &info, None);
             self.device.raw.destroy_shader_module(module, None);
             created
         };

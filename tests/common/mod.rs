@@ -4,6 +4,7 @@
 pub mod probe;
 pub mod scenes;
 pub mod statistics;
+pub mod viewer;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -18,6 +19,10 @@ use thinlens::vulkan::{Device, Instance, Shader};
 /// Every shader, as it is and with each fault of `tests/faults.txt` that lies in its source: its
 /// name, the fault's, the SPIR-V.
 const SHADERS: &[(&str, &str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/test_shaders.rs"));
+
+/// The cache folder of the programs that tests start: what is the user's is left alone, and what
+/// drivers keep there is still at hand in the next test.
+pub const CACHE: &str = concat!(env!("CARGO_TARGET_TMPDIR"), "/cache");
 
 /// A device under validation, and shaders for it. A test that leaves a message behind fails.
 pub struct Gpu {
@@ -205,6 +210,7 @@ pub fn thinlens(folder: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_thinlens"));
     command
         .current_dir(folder)
+        .env("XDG_CACHE_HOME", CACHE)
         .env_remove("DISPLAY")
         .env_remove("WAYLAND_DISPLAY")
         .env_remove("WAYLAND_SOCKET");
