@@ -201,9 +201,9 @@ def set_up(scene, job):
     target.render.image_settings.color_depth = "32"
     cycles = target.cycles
     cycles.device = "CPU"
+    cycles.seed = job["seed"]
     cycles.use_adaptive_sampling = cycles.use_denoising = False
     cycles.pixel_filter_type, cycles.filter_width = "BOX", 1.0
-    cycles.seed = job["seed"]
     # With it lamps that do not weaken with distance are hardly ever chosen, and then glare.
     cycles.use_light_tree = False
     # Mirrors only: no light from surface to surface otherwise.
@@ -228,6 +228,8 @@ def prepare(job):
 
     def timed(samples):
         target.cycles.samples = samples
+        # Blender does not see by itself that a kept scene is to be rendered with other settings.
+        target.update_tag()
         start = time.perf_counter()
         bpy.ops.render.render()
         return time.perf_counter() - start
