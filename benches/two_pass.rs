@@ -7,7 +7,7 @@
 use std::sync::Arc;
 use thinlens::error::Result;
 use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush, sampler_constant};
-use thinlens::passes::{Accumulate, SceneBuffers, Trace};
+use thinlens::passes::{Accumulate, BlueNoiseTile, SceneBuffers, Trace};
 use thinlens::renderer::schedule::Pass;
 use thinlens::scene::{self, SceneRef};
 use thinlens::settings::Settings;
@@ -49,14 +49,17 @@ fn measure(device: &Arc<Device>, name: &str) -> Result<()> {
     let counters =
         Arc::new(Buffer::new(device, "counters", size_of::<Counters>() as u64, Residence::Device)?);
     let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene))?;
+    let tile = BlueNoiseTile::new(device)?;
     let (trace, accumulate) = (
-        Trace::new(device, Trace::SHADER, sampler, &scene)?,
-        Accumulate::new(device, Accumulate::SHADER, sampler)?,
+        Trace::new(device, Trace::SHADER, sampler, &scene, &tile)?,
+        Accumulate::new(device, Accumulate::SHADER, sampler, &tile)?,
     );
     let (traced, accumulated) = (trace.bind(&scene, &batch, &counters)?, accumulate.bind(&batch, &film)?);
     let fused = ComputePipeline::new(device, FUSED, &scene.constants(sampler))?;
     let front = [Binding::Image(Arc::clone(&film)), Binding::Buffer(Arc::clone(&counters))];
-    let fused_bindings = BindingSet::new(&fused, &scene.bindings(front))?;
+    let mut bindings = scene.bindings(front);
+    bindings.push(tile.binding());
+    let fused_bindings = BindingSet::new(&fused, &bindings)?;
 
     let mut commands = Commands::new(device)?;
     let mut recording = commands.begin()?;

@@ -1,12 +1,16 @@
 //! Merges the tracing image into the film.
 
+use super::BlueNoiseTile;
 use crate::error::Result;
 use crate::gpu_types::AccumulatePush;
 use crate::vulkan::{Binding, BindingSet, ComputePipeline, Device, Image, Recording, Shader, shader};
 use std::sync::Arc;
 
 /// Pass 2. See `shaders/accumulate.comp`.
-pub struct Accumulate(ComputePipeline);
+pub struct Accumulate {
+    pipeline: ComputePipeline,
+    tile: BlueNoiseTile,
+}
 
 impl Accumulate {
     /// The shader.
@@ -17,13 +21,13 @@ impl Accumulate {
     ///
     /// # Errors
     /// What Vulkan says.
-    pub fn new(device: &Arc<Device>, shader: Shader, sampler: u32) -> Result<Self> {
-        Ok(Self(ComputePipeline::new(device, shader, &[sampler])?))
+    pub fn new(device: &Arc<Device>, shader: Shader, sampler: u32, tile: &BlueNoiseTile) -> Result<Self> {
+        Ok(Self { pipeline: ComputePipeline::new(device, shader, &[sampler])?, tile: tile.clone() })
     }
 
     /// Width and height of a workgroup: tiles are cut at multiples of it.
     pub fn local_size(&self) -> [u32; 2] {
-        self.0.local_size()
+        self.pipeline.local_size()
     }
 
     /// From the tracing image `batch` into `film`.
@@ -31,8 +35,8 @@ impl Accumulate {
     /// # Errors
     /// What Vulkan says.
     pub fn bind(&self, batch: &Arc<Image>, film: &Arc<Image>) -> Result<BindingSet> {
-        let images = [(0, Binding::Image(Arc::clone(batch))), (1, Binding::Image(Arc::clone(film)))];
-        BindingSet::new(&self.0, &images)
+        let (batch, film) = (Binding::Image(Arc::clone(batch)), Binding::Image(Arc::clone(film)));
+        BindingSet::new(&self.pipeline, &[(0, batch), (1, film), self.tile.binding()])
     }
 
     /// Merges `extent` pixels of the push constants' lattice.
@@ -43,6 +47,6 @@ impl Accumulate {
         push: &AccumulatePush,
         extent: [u32; 2],
     ) {
-        recording.dispatch(&self.0, bindings, bytemuck::bytes_of(push), extent);
+        recording.dispatch(&self.pipeline, bindings, bytemuck::bytes_of(push), extent);
     }
 }

@@ -2,10 +2,12 @@
 //! shader, its file and its debug label share one name.
 
 mod accumulate;
+mod blue_noise;
 mod resolve;
 mod trace;
 
 pub use accumulate::Accumulate;
+pub use blue_noise::BlueNoiseTile;
 pub use resolve::Resolve;
 pub use trace::{SceneBuffers, Trace};
 

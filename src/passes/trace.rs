@@ -1,5 +1,6 @@
 //! Traces a batch of samples for each pixel of a lattice into the tracing image.
 
+use super::BlueNoiseTile;
 use crate::error::Result;
 use crate::gpu_types::{SceneData, TracePush};
 use crate::vulkan::{
@@ -9,7 +10,10 @@ use crate::vulkan::{
 use std::sync::Arc;
 
 /// Pass 1. See `shaders/trace.comp`.
-pub struct Trace(ComputePipeline);
+pub struct Trace {
+    pipeline: ComputePipeline,
+    tile: BlueNoiseTile,
+}
 
 /// With more shapes in lists, materials or lights than these the scene is not copied: what would be
 /// unrolled grows too long.
@@ -130,8 +134,15 @@ impl Trace {
     ///
     /// # Errors
     /// What Vulkan says.
-    pub fn new(device: &Arc<Device>, shader: Shader, sampler: u32, scene: &SceneBuffers) -> Result<Self> {
-        Ok(Self(ComputePipeline::new(device, shader, &scene.constants(sampler))?))
+    pub fn new(
+        device: &Arc<Device>,
+        shader: Shader,
+        sampler: u32,
+        scene: &SceneBuffers,
+        tile: &BlueNoiseTile,
+    ) -> Result<Self> {
+        let pipeline = ComputePipeline::new(device, shader, &scene.constants(sampler))?;
+        Ok(Self { pipeline, tile: tile.clone() })
     }
 
     /// From `scene` into the tracing image `batch`, counting into `counters`.
@@ -145,12 +156,14 @@ impl Trace {
         counters: &Arc<Buffer>,
     ) -> Result<BindingSet> {
         let front = [Binding::Image(Arc::clone(batch)), Binding::Buffer(Arc::clone(counters))];
-        BindingSet::new(&self.0, &scene.bindings(front))
+        let mut bindings = scene.bindings(front);
+        bindings.push(self.tile.binding());
+        BindingSet::new(&self.pipeline, &bindings)
     }
 
     /// Width and height of a workgroup: tiles are cut at multiples of it.
     pub fn local_size(&self) -> [u32; 2] {
-        self.0.local_size()
+        self.pipeline.local_size()
     }
 
     /// Traces `extent` pixels of the push constants' lattice.
@@ -161,6 +174,6 @@ impl Trace {
         push: &TracePush,
         extent: [u32; 2],
     ) {
-        recording.dispatch(&self.0, bindings, bytemuck::bytes_of(push), extent);
+        recording.dispatch(&self.pipeline, bindings, bytemuck::bytes_of(push), extent);
     }
 }

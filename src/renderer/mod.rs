@@ -14,7 +14,7 @@ use crate::error::{Error, Result};
 use crate::gpu_types::{
     AccumulatePush, Camera, Counters, ResolvePush, SceneData, TracePush, sampler_constant,
 };
-use crate::passes::{Accumulate, Resolve, SceneBuffers, Shaders, Trace};
+use crate::passes::{Accumulate, BlueNoiseTile, Resolve, SceneBuffers, Shaders, Trace};
 use crate::scene::SceneRef;
 use crate::settings::{Estimator, Sampler, Settings, View};
 use crate::vulkan::{BindingSet, Buffer, Device, Image, Recording, Residence, SOFTWARE};
@@ -44,6 +44,7 @@ pub struct Renderer {
     shaders: Shaders,
     /// What the passes are compiled for.
     sampler: Sampler,
+    tile: BlueNoiseTile,
     accumulate: Accumulate,
     resolve: Resolve,
     counters: Arc<Buffer>,
@@ -85,13 +86,15 @@ impl Renderer {
     pub fn with_shaders(device: &Arc<Device>, shaders: Shaders) -> Result<Self> {
         let sampler = Sampler::default();
         let size = size_of::<Counters>() as u64;
+        let tile = BlueNoiseTile::new(device)?;
         Ok(Self {
             scene: None,
             film: None,
             trace_bindings: None,
             shaders,
             sampler,
-            accumulate: Accumulate::new(device, shaders.accumulate, sampler_constant(sampler))?,
+            accumulate: Accumulate::new(device, shaders.accumulate, sampler_constant(sampler), &tile)?,
+            tile,
             resolve: Resolve::new(device, shaders.resolve)?,
             counters: Arc::new(Buffer::new(device, "counters", size, Residence::Device)?),
             tally: Tally::new(device)?,
@@ -128,7 +131,7 @@ impl Renderer {
             self.device.wait_idle()?;
             (self.scene, self.film, self.trace_bindings) = (None, None, None);
             let sampler = sampler_constant(estimator.sampler);
-            self.accumulate = Accumulate::new(&self.device, self.shaders.accumulate, sampler)?;
+            self.accumulate = Accumulate::new(&self.device, self.shaders.accumulate, sampler, &self.tile)?;
             self.sampler = estimator.sampler;
         }
         if self.scene.as_ref().is_none_or(|loaded| loaded.scene != estimator.scene) {
@@ -177,7 +180,8 @@ impl Renderer {
         self.device.wait_idle()?;
         (self.scene, self.trace_bindings) = (None, None);
         let buffers = SceneBuffers::new(&self.device, &SceneData::new(scene))?;
-        let trace = Trace::new(&self.device, self.shaders.trace, sampler_constant(self.sampler), &buffers)?;
+        let sampler = sampler_constant(self.sampler);
+        let trace = Trace::new(&self.device, self.shaders.trace, sampler, &buffers, &self.tile)?;
         self.tally.forget_rate();
         self.scene = Some(LoadedScene { scene: scene.clone(), buffers, trace });
         Ok(())

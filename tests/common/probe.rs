@@ -4,7 +4,7 @@ use super::Gpu;
 use bytemuck::{Pod, Zeroable};
 use std::sync::Arc;
 use thinlens::gpu_types::{SceneData, sampler_constant};
-use thinlens::passes::SceneBuffers;
+use thinlens::passes::{BlueNoiseTile, SceneBuffers};
 use thinlens::scene::Scene;
 use thinlens::settings::Sampler;
 use thinlens::vulkan::{Binding, BindingSet, Buffer, Commands, ComputePipeline, Residence, SOFTWARE};
@@ -45,10 +45,15 @@ pub fn probe_as<In: Pod, Out: Pod>(
     let output = Arc::new(output);
     let front = [Binding::Buffer(input), Binding::Buffer(Arc::clone(&output))];
     let scene = scene.map(|scene| SceneBuffers::new(device, &SceneData::new(scene)).expect("a scene"));
-    let (bindings, constants) = match &scene {
+    let (mut bindings, constants) = match &scene {
         Some(scene) => (scene.bindings(front), scene.constants(sampler)),
         None => ((0..).zip(front).collect(), vec![sampler]),
     };
+    // Few of the functions need sample values.
+    let tile = BlueNoiseTile::new(device).expect("a tile").binding();
+    if shader.interface().resources.contains_key(&tile.0) {
+        bindings.push(tile);
+    }
     let answers = |constants: &[u32]| {
         let pipeline = ComputePipeline::new(device, shader, constants).expect("a pipeline");
         let bindings = BindingSet::new(&pipeline, &bindings).expect("bindings");
