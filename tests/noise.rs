@@ -1,76 +1,121 @@
-//! How the error is spread over the picture: what is left of it for an eye that averages neighbours.
+//! How the error is spread over a picture: what is left of it for an eye that averages neighbours.
 
 mod common;
 
 use anyhow::{Result, ensure};
-use common::{Gpu, prove, render, small};
-use thinlens::renderer::Renderer;
+use common::probe::{STEP, indices, sample_bits};
+use common::{Gpu, pixels, prove, render, small};
+use std::f64::consts::TAU;
+use std::ops::Range;
+use thinlens::reference::sampler::TILE;
 use thinlens::settings::{Sampler, Settings};
 
-const SIZE: [u32; 2] = [192, 144];
-const COUNTS: [u32; 5] = [1, 2, 4, 8, 16];
+const SIZE: [u32; 2] = [400, 300];
 /// Standard deviation in pixels of the eye's blur.
 const BLUR: f64 = 1.5;
 
-/// Red, green and blue of each pixel, less those of the converged picture.
-fn error(renderer: &mut Renderer, settings: &Settings, converged: &[[f32; 4]]) -> Result<Vec<[f64; 3]>> {
-    let film = render(renderer, settings)?;
-    let less = |(texel, of): (&[f32; 4], &[f32; 4])| [0, 1, 2].map(|i| f64::from(texel[i] - of[i]));
-    Ok(film.iter().zip(converged).map(less).collect())
-}
-
 /// A picture blurred by a Gaussian, as far in from its border as the Gaussian reaches.
-fn blurred(picture: &[[f64; 3]], sigma: f64) -> Vec<[f64; 3]> {
-    let reach = (3.0 * sigma).ceil() as usize;
-    let weights: Vec<f64> =
-        (0..=2 * reach).map(|at| (-0.5 * ((at as f64 - reach as f64) / sigma).powi(2)).exp()).collect();
-    let sum: f64 = weights.iter().sum();
-    let [width, height] = SIZE.map(|size| size as usize);
+fn blurred(picture: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let reach = (3.0 * BLUR).ceil() as usize;
+    let weight = |at: usize| (-0.5 * ((at as f64 - reach as f64) / BLUR).powi(2)).exp();
+    let sum: f64 = (0..=2 * reach).map(weight).sum();
+    let weights: Vec<f64> = (0..=2 * reach).map(|at| weight(at) / sum).collect();
     let along = |from: &[[f64; 3]], at: usize, step: usize| {
         let mut mean = [0.0; 3];
         for (number, weight) in weights.iter().enumerate() {
-            (0..3).for_each(|channel| mean[channel] += weight / sum * from[at + number * step][channel]);
+            (0..3).for_each(|channel| mean[channel] += weight * from[at + number * step][channel]);
         }
         mean
     };
-    let inner = width - 2 * reach;
-    let rows: Vec<_> = (0..inner * height)
-        .map(|pixel| along(picture, pixel / inner * width + pixel % inner, 1))
-        .collect();
-    (0..inner * (height - 2 * reach)).map(|pixel| along(&rows, pixel, inner)).collect()
+    let [width, height] = SIZE.map(|size| size as usize);
+    let (inner_width, inner_height) = (width - 2 * reach, height - 2 * reach);
+    let across = |pixel| along(picture, pixel / inner_width * width + pixel % inner_width, 1);
+    let rows: Vec<_> = (0..inner_width * height).map(across).collect();
+    (0..inner_width * inner_height).map(|pixel| along(&rows, pixel, inner_width)).collect()
 }
 
-fn power(picture: &[[f64; 3]]) -> f64 {
-    picture.iter().flatten().map(|value| value * value).sum::<f64>() / (3 * picture.len()) as f64
-}
-
+/// Catches a tile that does not fit its pixels, or a sampler that no tile arranges: after one sample and
+/// after four, what blurring leaves of the error is less than with a Sobol sequence of its own for each
+/// pixel, and the error itself is as large.
 #[test]
-fn figures() {
-    let gpu = Gpu::new();
-    let mut renderer = gpu.renderer();
-    for scene in ["version-4", "suffern-boxes", "suffern-mirror"] {
-        let mut settings = small(scene);
-        settings.estimator.size = SIZE;
-        settings.estimator.sampler = Sampler::Sobol;
-        settings.samples = 8192;
-        settings.estimator.seed = 99;
-        let converged = render(&mut renderer, &settings).unwrap();
-        for count in [1, 2, 4, 8, 16, 64] {
-            settings.samples = count;
-            let mut of = |sampler, seed| {
-                (settings.estimator.sampler, settings.estimator.seed) = (sampler, seed);
-                let e = error(&mut renderer, &settings, &converged).unwrap();
-                [power(&e), power(&blurred(&e, 1.0)), power(&blurred(&e, 1.5)), power(&blurred(&e, 2.5))]
+fn blurring_leaves_less_of_blue_noise() {
+    let check = |gpu: &Gpu| -> Result<String> {
+        let mut renderer = gpu.renderer();
+        let mut figures = Vec::new();
+        for scene in ["version-4", "suffern-boxes", "suffern-mirror"] {
+            let settings = Settings { samples: 256, ..small(scene) };
+            let mut film = |sampler, samples, seed| {
+                let mut settings = settings.clone();
+                (settings.estimator.size, settings.estimator.sampler) = (SIZE, sampler);
+                (settings.samples, settings.estimator.seed) = (samples, seed);
+                render(&mut renderer, &settings)
             };
-            let mut mean = |sampler, seeds: std::ops::Range<u32>| {
-                let n = seeds.len() as f64;
-                let mut sum = [0.0; 4];
-                for seed in seeds { of(sampler, seed).iter().zip(&mut sum).for_each(|(p, s)| *s += p / n); }
-                sum
+            let converged = film(Sampler::Sobol, 256, 99)?;
+            // The mean powers of the error and of the blurred error.
+            let mut powers = |sampler, samples, seeds: Range<u32>| -> Result<[f64; 2]> {
+                let mut powers = [0.0; 2];
+                for seed in seeds.clone() {
+                    let film = film(sampler, samples, seed)?;
+                    let of_pixel = |(a, b): (&[f32; 4], &[f32; 4])| {
+                        [0, 1, 2].map(|channel| f64::from(a[channel] - b[channel]))
+                    };
+                    let error: Vec<_> = film.iter().zip(&converged).map(of_pixel).collect();
+                    for (power, picture) in powers.iter_mut().zip([&error, &blurred(&error)]) {
+                        let sum: f64 = picture.iter().flatten().map(|value| value * value).sum();
+                        *power += sum / picture.len() as f64 / seeds.len() as f64;
+                    }
+                }
+                Ok(powers)
             };
-            let (random, sobol, blue, other) = (mean(Sampler::Random, 0..4), mean(Sampler::Sobol, 0..8), mean(Sampler::BlueNoise, 0..1), mean(Sampler::BlueNoise, 1..9));
-            let r = |a: [f64; 4], b: [f64; 4]| [0, 1, 2, 3].map(|i| (a[i] / b[i]).sqrt());
-            println!("{scene} {count}: blue/sobol {:.3?}, other seeds {:.3?}, blue/random {:.3?}", r(blue, sobol), r(other, sobol), r(blue, random));
+            for (samples, most, most_of_others) in [(1, 0.8, 0.87), (4, 0.91, 0.92)] {
+                let sobol = powers(Sampler::Sobol, samples, 0..3)?;
+                for (seeds, most) in [(0..1, most), (1..4, most_of_others)] {
+                    let blue = powers(Sampler::BlueNoise, samples, seeds.clone())?;
+                    let [error, blurred] = [0, 1].map(|kind| (blue[kind] / sobol[kind]).sqrt());
+                    figures.push(format!(
+                        "{scene}, {samples} samples, seeds {seeds:?}: {blurred:.3} of the blurred error, \
+                         {error:.3} of the error"
+                    ));
+                    ensure!(blurred < most && (error - 1.0).abs() < 0.05, "{}", figures.join("; "));
+                }
+            }
         }
-    }
+        Ok(figures.join("; "))
+    };
+    prove(check, &["blue_noise_left_to_chance", "blue_noise_number_of_the_neighbour"]);
+}
+
+/// Catches a tile that is arranged for one dimension only, or has a seam: in the first sample's values
+/// over the tile, each dimension has little power at low frequencies.
+#[test]
+fn the_tile_has_no_low_frequencies() {
+    const LOW: i32 = 12;
+    let check = |gpu: &Gpu| -> Result<String> {
+        let size = [TILE; 2];
+        let values = sample_bits(gpu, Sampler::BlueNoise, &indices(size, 0, 0));
+        let mut figures = Vec::new();
+        for (axis, name) in ["film x", "film y", "lens x", "lens y"].iter().enumerate() {
+            let (mut sum, mut count) = (0.0, 0.0);
+            for (fx, fy) in (-LOW..=LOW).flat_map(|fy| (0..=LOW).map(move |fx| (fx, fy))) {
+                if fx * fx + fy * fy > LOW * LOW || (fx, fy) == (0, 0) {
+                    continue;
+                }
+                let (mut real, mut imaginary) = (0.0, 0.0);
+                for ([x, y], values) in pixels(size).zip(&values) {
+                    let turns = (fx as f64 * f64::from(x) + fy as f64 * f64::from(y)) / f64::from(TILE);
+                    let value = f64::from(values[axis]) * STEP - 0.5;
+                    real += value * (TAU * turns).cos();
+                    imaginary += value * (TAU * turns).sin();
+                }
+                // Of independent uniform values, with variances of 1/12, a mean power of one.
+                let power = 12.0 * (real * real + imaginary * imaginary) / f64::from(TILE * TILE);
+                (sum, count) = (sum + power, count + 1.0);
+            }
+            let mean = sum / count;
+            figures.push(format!("{name} {mean:.3}"));
+            ensure!(mean < [0.7, 0.7, 0.08, 0.08][axis], "{}", figures.join("; "));
+        }
+        Ok(format!("of the power of white noise: {}", figures.join("; ")))
+    };
+    prove(check, &["blue_noise_left_to_chance", "blue_noise_number_of_the_neighbour"]);
 }

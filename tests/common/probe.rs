@@ -1,6 +1,6 @@
 //! Runs the shaders' functions one by one, on inputs of a test's choice.
 
-use super::Gpu;
+use super::{Gpu, pixels};
 use bytemuck::{Pod, Zeroable};
 use std::sync::Arc;
 use thinlens::gpu_types::{SceneData, sampler_constant};
@@ -71,6 +71,25 @@ pub fn probe_as<In: Pod, Out: Pod>(
         assert!(found == other, "{name}: copying the scene changes what comes out");
     }
     bytemuck::allocation::pod_collect_to_vec(&found)
+}
+
+/// A sample's place in the sequences of pixels and seeds.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct Index {
+    pub pixel: [u32; 2],
+    pub sample_index: u32,
+    pub seed: u32,
+}
+
+/// The device's values of these samples, in multiples of [`STEP`].
+pub fn sample_bits(gpu: &Gpu, sampler: Sampler, indices: &[Index]) -> Vec<[u32; 4]> {
+    probe_as(gpu, "sampler", sampler, None, &[], indices)
+}
+
+/// A sample of each pixel.
+pub fn indices(size: [u32; 2], sample_index: u32, seed: u32) -> Vec<Index> {
+    pixels(size).map(|pixel| Index { pixel, sample_index, seed }).collect()
 }
 
 /// One dispatch, until it is done.
