@@ -1,12 +1,12 @@
 //! Makes `shaders/blue_noise_tile.bin`, the tile of the blue-noise sampler:
 //! `cargo run --release --example blue_noise_tile`. It takes some minutes.
 //!
-//! Each pixel of the tile has a number, which chooses the mask that its samples are xored with. Here the
+//! Each pixel of the tile has a number of its own, which chooses the mask that its samples are xored with. Here the
 //! numbers are chosen so that the errors of neighbouring pixels cancel where the eye blurs them, in
 //! pictures of edges in and out of focus, with 1, 2, 4, 8 and 16 samples at once. After E. Heitz and
-//! others, 2019 (see [`thinlens::settings::Sampler`]), with three differences: what is minimised is the
-//! power of the blurred error; the edges run through the picture, so that a pixel's neighbour sees them
-//! elsewhere; and a pixel takes any number, not only one that another pixel gives away.
+//! others, 2019 (see [`thinlens::settings::Sampler`]), by swaps, with two differences: what is minimised is
+//! the power of the blurred error, and the edges run through the picture, so that a pixel's neighbour sees
+//! them elsewhere.
 //!
 //! At the end the blurred error is printed, as a part of that of numbers left to chance, for edges that
 //! had no say.
@@ -17,17 +17,15 @@ use thinlens::reference::sampler::{TILE, blue_noise_bits, concentric_disk, unit}
 
 const SIZE: usize = TILE as usize;
 const PIXELS: usize = SIZE * SIZE;
-/// Numbers to choose from.
-const NUMBERS: usize = 1 << 14;
 /// Pictures that the error is taken of.
-const PICTURES: usize = 512;
+const PICTURES: usize = 256;
 /// How many samples, and how much each of these weighs: the first pictures are looked at the most.
 const LEVELS: [(usize, f32); 5] = [(1, 4.0), (2, 2.0), (4, 2.0), (8, 1.0), (16, 1.0)];
 const SAMPLES: usize = 16;
 const ERRORS: usize = PICTURES * LEVELS.len();
-const SWEEPS: usize = 8;
-/// Numbers tried for a pixel in a sweep.
-const CANDIDATES: usize = 128;
+const SWEEPS: usize = 12;
+/// Swaps tried for a pixel in a sweep.
+const CANDIDATES: usize = 64;
 /// The standard deviation in pixels of the eye's blur.
 const BLUR: f32 = 1.35;
 /// Errors of pixels further apart than this hardly meet.
@@ -91,7 +89,7 @@ impl Pictures {
         let mut rng = Rng::with_seed(seed);
         let stripes: Vec<_> = (0..PICTURES).map(|_| Stripes::random(&mut rng)).collect();
         let of_number = |number: u16| (0..SAMPLES as u32).map(move |index| sample(number, index));
-        let samples = (0..NUMBERS as u16).flat_map(of_number);
+        let samples = (0..PIXELS as u16).flat_map(of_number);
         let phases = samples.flat_map(|sample| stripes.iter().map(move |stripes| stripes.of_sample(sample)));
         let phases = phases.collect();
         let mut truth = vec![0.0; SIZE * PICTURES];
@@ -108,7 +106,7 @@ impl Pictures {
         let mut powers = [0.0; LEVELS.len()];
         let mut errors = vec![0.0; ERRORS];
         for pixel in 0..PIXELS {
-            pictures.errors(&pictures.view(pixel), (pixel % NUMBERS) as u16, &mut errors);
+            pictures.errors(&pictures.view(pixel), pixel as u16, &mut errors);
             let levels = errors.chunks_exact(PICTURES);
             powers
                 .iter_mut()
@@ -172,87 +170,96 @@ fn dot(a: &[f32], b: &[f32]) -> f32 {
     lanes.iter().sum()
 }
 
-/// A tile of numbers, and the blurred errors in each of its pixels.
+/// A tile of numbers, the errors of its pixels, and these blurred.
 struct Tile<'a> {
     pictures: &'a Pictures,
     numbers: Vec<u16>,
+    errors: Vec<f32>,
     blurred: Vec<f32>,
 }
 
 impl<'a> Tile<'a> {
     fn new(pictures: &'a Pictures, numbers: Vec<u16>) -> Self {
-        let mut tile = Self { pictures, numbers, blurred: vec![0.0; ERRORS * PIXELS] };
-        let mut errors = vec![0.0; ERRORS];
-        for pixel in 0..PIXELS {
-            pictures.errors(&pictures.view(pixel), tile.numbers[pixel], &mut errors);
-            tile.add(pixel, &errors);
-        }
+        let zeros = vec![0.0; ERRORS * PIXELS];
+        let mut tile = Self { pictures, numbers, errors: zeros.clone(), blurred: zeros };
+        (0..PIXELS).for_each(|pixel| tile.update(pixel));
         tile
     }
 
-    /// Adds to a pixel's errors. Blurring both factors of a power is blurring one of them twice, by a
-    /// Gaussian of twice the variance.
-    fn add(&mut self, pixel: usize, change: &[f32]) {
+    /// Takes in that a pixel has another number. Blurring both factors of a power is blurring one of
+    /// them twice, by a Gaussian of twice the variance.
+    fn update(&mut self, pixel: usize) {
+        let own = &mut self.errors[pixel * ERRORS..][..ERRORS];
+        let mut change = vec![0.0; ERRORS];
+        self.pictures.errors(&self.pictures.view(pixel), self.numbers[pixel], &mut change);
+        for (change, own) in change.iter_mut().zip(own) {
+            (*own, *change) = (*change, *change - *own);
+        }
         let across = |at: usize, step: i32| (at + SIZE).wrapping_add_signed(step as isize) % SIZE;
         for (x, y) in (-REACH..=REACH).flat_map(|y| (-REACH..=REACH).map(move |x| (x, y))) {
             let weight = (-(x * x + y * y) as f32 / (4.0 * BLUR * BLUR)).exp();
             let near = across(pixel / SIZE, y) * SIZE + across(pixel % SIZE, x);
             let blurred = &mut self.blurred[near * ERRORS..][..ERRORS];
-            blurred.iter_mut().zip(change).for_each(|(blurred, change)| *blurred += weight * change);
+            blurred.iter_mut().zip(&change).for_each(|(blurred, change)| *blurred += weight * change);
         }
     }
 
-    /// Gives a pixel the best of its number and these.
-    fn improve(&mut self, pixel: usize, candidates: impl Iterator<Item = u16>) {
+    /// By how much the power changes if a pixel has this number.
+    fn change(&self, pixel: usize, view: &View, number: u16) -> f32 {
+        let mut errors = [0.0; ERRORS];
+        self.pictures.errors(view, number, &mut errors);
+        errors.iter_mut().zip(&self.errors[pixel * ERRORS..]).for_each(|(error, own)| *error -= own);
+        dot(&errors, &errors) + 2.0 * dot(&errors, &self.blurred[pixel * ERRORS..][..ERRORS])
+    }
+
+    /// Swaps a pixel's number with that of the one of these, all out of its reach, where that lowers the
+    /// power most, if it does.
+    fn improve(&mut self, pixel: usize, candidates: impl Iterator<Item = usize>) {
         let view = self.pictures.view(pixel);
-        let present = self.numbers[pixel];
-        let mut own = vec![0.0; ERRORS];
-        self.pictures.errors(&view, present, &mut own);
-        let blurred = &self.blurred[pixel * ERRORS..][..ERRORS];
-        let others: Vec<f32> = blurred.iter().zip(&own).map(|(all, own)| all - own).collect();
-        let mut errors = vec![0.0; ERRORS];
-        let mut power = |number| {
-            self.pictures.errors(&view, number, &mut errors);
-            dot(&errors, &errors) + 2.0 * dot(&errors, &others)
-        };
-        let start = (present, power(present));
-        let least = |best: (u16, f32), number| {
-            let power = power(number);
-            if power < best.1 { (number, power) } else { best }
-        };
-        let (best, _) = candidates.fold(start, least);
-        if best != present {
-            self.pictures.errors(&view, best, &mut errors);
-            errors.iter_mut().zip(&own).for_each(|(new, own)| *new -= own);
-            self.numbers[pixel] = best;
-            self.add(pixel, &errors);
+        let mut best = (0.0, pixel);
+        for other in candidates.filter(|other| far(pixel, *other)) {
+            let there = self.change(other, &self.pictures.view(other), self.numbers[pixel]);
+            let change = there + self.change(pixel, &view, self.numbers[other]);
+            if change < best.0 {
+                best = (change, other);
+            }
+        }
+        if best.1 != pixel {
+            self.numbers.swap(pixel, best.1);
+            self.update(pixel);
+            self.update(best.1);
         }
     }
 
     /// The blurred error's power, level by level.
     fn powers(&self) -> [f32; LEVELS.len()] {
         let mut powers = [0.0; LEVELS.len()];
-        let mut errors = vec![0.0; ERRORS];
-        for (pixel, blurred) in self.blurred.chunks_exact(ERRORS).enumerate() {
-            self.pictures.errors(&self.pictures.view(pixel), self.numbers[pixel], &mut errors);
-            let levels = errors.chunks_exact(PICTURES).zip(blurred.chunks_exact(PICTURES));
+        for pixels in self.errors.chunks_exact(ERRORS).zip(self.blurred.chunks_exact(ERRORS)) {
+            let levels = pixels.0.chunks_exact(PICTURES).zip(pixels.1.chunks_exact(PICTURES));
             powers.iter_mut().zip(levels).for_each(|(power, (a, b))| *power += dot(a, b));
         }
         powers
     }
 }
 
+/// Whether no pixel is in reach of both.
+fn far(a: usize, b: usize) -> bool {
+    let apart = |a: usize, b: usize| a.abs_diff(b).min(SIZE - a.abs_diff(b));
+    let reach = REACH.unsigned_abs() as usize;
+    apart(a % SIZE, b % SIZE).max(apart(a / SIZE, b / SIZE)) > reach
+}
+
 fn main() -> std::io::Result<()> {
     let mut rng = Rng::with_seed(2);
-    let mut number = || rng.u16(0..NUMBERS as u16);
-    let chance: Vec<u16> = (0..PIXELS).map(|_| number()).collect();
+    let mut chance: Vec<u16> = (0..PIXELS as u16).collect();
+    rng.shuffle(&mut chance);
     let pictures = Pictures::new(1);
     let mut tile = Tile::new(&pictures, chance.clone());
     let mut order: Vec<usize> = (0..PIXELS).collect();
     for sweep in 1..=SWEEPS {
         Rng::with_seed(sweep as u64).shuffle(&mut order);
         for pixel in &order {
-            tile.improve(*pixel, (0..CANDIDATES).map(|_| number()));
+            tile.improve(*pixel, (0..CANDIDATES).map(|_| rng.usize(0..PIXELS)));
         }
         println!("sweep {sweep} of {SWEEPS}: powers of the blurred error {:.0?}", tile.powers());
     }
