@@ -55,7 +55,8 @@ void main() {
                 if (start.x < 0 || start.y < 0 || !inside(uvec2(start), push.lattice.extent)) {
                     continue;
                 }
-                vec4 xi = sample_values(push.seed, uvec2(start), push.first_sample, BLOCK_FILM_AND_LENS);
+                uvec4 keys = sample_keys(push.seed, uvec2(start), BLOCK_FILM_AND_LENS);
+                vec4 xi = sample_values(keys, push.first_sample);
                 if (landing_step(film_offset(xi.xy, push.jitter)) == -ivec2(x, y)) {
                     gather(start);
                 }

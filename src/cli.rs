@@ -132,8 +132,9 @@ pub struct SettingsArgs {
     /// How many mirror reflections to follow, up to 64 [default: the scene's]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     max_bounces: Option<u32>,
-    /// How the points are chosen: sobol keeps a pixel's points apart, random does not [default: sobol]
-    #[arg(long, value_name = "sobol|random", value_enum, hide_possible_values = true)]
+    /// How the points are chosen: sobol keeps a pixel's points apart, blue-noise also sets neighbouring
+    /// pixels off against each other, random does neither [default: blue-noise]
+    #[arg(long, value_name = "blue-noise|sobol|random", value_enum, hide_possible_values = true)]
     sampler: Option<SamplerArg>,
     /// Stops each pixel whose error is below this share of its brightness, 0.02 say, so that the work goes
     /// where the noise is; --samples is then the most that a pixel gets [default: 0, none stops]
@@ -169,6 +170,7 @@ impl OverlayArg {
 /// How sample values are made.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum SamplerArg {
+    BlueNoise,
     Sobol,
     Random,
 }
@@ -176,6 +178,7 @@ enum SamplerArg {
 impl SamplerArg {
     fn plain(self) -> Sampler {
         match self {
+            Self::BlueNoise => Sampler::BlueNoise,
             Self::Sobol => Sampler::Sobol,
             Self::Random => Sampler::Random,
         }

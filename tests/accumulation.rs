@@ -9,7 +9,7 @@ use common::{Gpu, bits, film, probe, prove, render, scene_of, settings_of, small
 use glam::DVec3;
 use std::sync::Arc;
 use thinlens::gpu_types::{Camera, Counters, SceneData, TracePush, estimator_constants};
-use thinlens::passes::{Adaptive, SceneBuffers, Trace};
+use thinlens::passes::{Adaptive, BlueNoiseTile, SceneBuffers, Trace};
 use thinlens::reference::{self, sampler};
 use thinlens::renderer::schedule::Pass;
 use thinlens::settings::Settings;
@@ -36,7 +36,8 @@ fn record(gpu: &Gpu, settings: &Settings) -> Result<Vec<Vec<[f32; 4]>>> {
     let Settings { estimator, samples, .. } = settings;
     let device = gpu.device();
     let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene))?;
-    let trace = Trace::new(device, gpu.shader("trace"), estimator_constants(estimator), &scene)?;
+    let tile = BlueNoiseTile::new(device)?;
+    let trace = Trace::new(device, gpu.shader("trace"), estimator_constants(estimator), &scene, &tile)?;
     let counters = Buffer::new(device, "counters", size_of::<Counters>() as u64, Residence::Device)?;
     let batch = Arc::new(Image::rgba32f(device, "batch", estimator.size)?);
     let read = Buffer::new(device, "samples", batch.byte_len(), Residence::Host)?;

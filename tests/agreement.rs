@@ -24,9 +24,13 @@ fn the_device_renders_what_the_oracle_does() {
         let mut renderer = gpu.renderer();
         let (mut samples, mut mismatches, mut share, mut brightness) = (0, 0, 0.0_f64, 0.0_f64);
         for settings in own.iter().chain(&builtin) {
-            for (jitter, sampler) in
-                [(1.0, Sampler::Sobol), (1.0, Sampler::Random), (0.0, Sampler::Sobol), (2.5, Sampler::Sobol)]
-            {
+            for (jitter, sampler) in [
+                (1.0, Sampler::BlueNoise),
+                (1.0, Sampler::Sobol),
+                (1.0, Sampler::Random),
+                (0.0, Sampler::Sobol),
+                (2.5, Sampler::BlueNoise),
+            ] {
                 let mut settings = settings.clone();
                 (settings.estimator.jitter, settings.estimator.sampler) = (jitter, sampler);
                 settings.estimator.seed = 7;
@@ -57,6 +61,7 @@ fn the_device_renders_what_the_oracle_does() {
             "half_a_pixel_off",
             "sampler_without_index",
             "sobol_without_seed",
+            "blue_noise_tile_transposed",
             "sobol_directions_of_another_bit",
             "disk_sector_mirrored",
             "shadow_limit_ignored",

@@ -39,10 +39,11 @@ fn rmse(film: &[[f32; 4]], converged: &[[f32; 4]], chosen: &[bool]) -> f64 {
 }
 
 /// Catches points that do not keep apart, in the film's pair or the lens's, or not across batches: in
-/// the blurred parts of a picture 64 points of the Sobol sequence leave at most 0.6 of the error of
-/// independent ones, and the error falls by a steeper power of their number.
+/// the blurred parts of a picture 64 points of the Sobol sequence, scrambled or masked for each pixel, leave
+/// at most 0.6 of the error of independent ones, and the error falls by a steeper power of their number.
 #[test]
 fn blur_converges_faster_than_with_independent_points() {
+    const SEEDS: u32 = 4;
     let check = |gpu: &Gpu| -> Result<String> {
         let mut figures = Vec::new();
         for scene in ["suffern-boxes", "suffern-mirror"] {
@@ -58,20 +59,31 @@ fn blur_converges_faster_than_with_independent_points() {
             };
             let converged = render(Sampler::Sobol, 4096, 99);
             let mut errors = |sampler| {
-                [16, 64, 256].map(|samples| rmse(&render(sampler, samples, 0), &converged, &chosen))
+                [16, 64, 256].map(|samples| {
+                    let power = |seed| rmse(&render(sampler, samples, seed), &converged, &chosen).powi(2);
+                    ((0..SEEDS).map(power).sum::<f64>() / f64::from(SEEDS)).sqrt()
+                })
             };
-            let (random, sobol) = (errors(Sampler::Random), errors(Sampler::Sobol));
             let power = |errors: [f64; 3]| (errors[2] / errors[0]).log(16.0);
-            let ratio = sobol[1] / random[1];
-            figures.push(format!(
-                "{scene}, {pixels} blurred pixels: at 64 points {ratio:.3} of the error of independent ones, falling \
-                 with the power {:.3}, theirs with {:.3}",
-                power(sobol),
-                power(random)
-            ));
+            let random = errors(Sampler::Random);
             // A Sobol sequence that converges to a picture of its own would spoil the others' power.
-            let honest = (power(random) + 0.5).abs() < 0.06;
-            ensure!(honest && ratio < 0.6 && power(sobol) < power(random) - 0.08, "{}", figures.join("; "));
+            ensure!(
+                (power(random) + 0.5).abs() < 0.06,
+                "{scene}: independent points fall with {}",
+                power(random)
+            );
+            for sampler in [Sampler::Sobol, Sampler::BlueNoise] {
+                let even = errors(sampler);
+                let ratio = even[1] / random[1];
+                figures.push(format!(
+                    "{scene}, {pixels} blurred pixels, {sampler:?}: at 64 points {ratio:.3} of the error of \
+                     independent ones, falling with the power {:.3}, theirs with {:.3}",
+                    power(even),
+                    power(random)
+                ));
+                let steeper = power(even) < power(random) - 0.08;
+                ensure!(ratio < 0.6 && steeper, "{}", figures.join("; "));
+            }
         }
         Ok(figures.join("; "))
     };
@@ -81,6 +93,7 @@ fn blur_converges_faster_than_with_independent_points() {
             "sobol_film_like_the_lens",
             "sobol_one_dimension_twice",
             "sobol_index_within_the_frame_only",
+            "blue_noise_index_within_the_frame_only",
             "scramble_of_the_bits_as_they_are",
         ],
     );

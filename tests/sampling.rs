@@ -3,33 +3,15 @@
 mod common;
 
 use anyhow::{Result, ensure};
-use bytemuck::{Pod, Zeroable};
-use common::probe::{STEP, disk, probe_as};
+use common::probe::{Index, STEP, disk, indices, sample_bits as bits};
 use common::statistics::{evenness_p, normal_p, sidak};
-use common::{Gpu, pixels, prove};
+use common::{Gpu, prove};
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 use thinlens::reference::sampler;
 use thinlens::settings::Sampler;
 
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable)]
-struct Index {
-    pixel: [u32; 2],
-    sample_index: u32,
-    seed: u32,
-}
-
-const SAMPLERS: [Sampler; 2] = [Sampler::Random, Sampler::Sobol];
-
-/// The device's sample values, in multiples of [`STEP`].
-fn bits(gpu: &Gpu, sampler: Sampler, indices: &[Index]) -> Vec<[u32; 4]> {
-    probe_as(gpu, "sampler", sampler, None, &[], indices)
-}
-
-fn indices(size: [u32; 2], sample_index: u32, seed: u32) -> Vec<Index> {
-    pixels(size).map(|pixel| Index { pixel, sample_index, seed }).collect()
-}
+const SAMPLERS: [Sampler; 3] = [Sampler::Random, Sampler::Sobol, Sampler::BlueNoise];
 
 /// Catches a hash that differs between the shaders and the oracle in any bit that is used.
 #[test]
@@ -57,6 +39,9 @@ fn sample_values_are_the_oracles_to_the_bit() {
             "sampler_without_seed",
             "sampler_without_pixel",
             "sobol_without_pixel",
+            "blue_noise_tile_transposed",
+            "blue_noise_number_of_the_neighbour",
+            "blue_noise_seed_shifts_one_axis",
             "sobol_one_dimension_twice",
             "sobol_high_directions_swapped",
             "scramble_off_by_a_constant",
@@ -110,24 +95,28 @@ fn lens_points_fill_the_disk_evenly() {
 /// sample and the next one's, a pixel and its neighbours (and the same place in the next workgroup),
 /// one seed and the next. Every pair of dimensions is held against independence by its correlation
 /// and by the evenness of its joint distribution.
+///
+/// The blue-noise sampler arranges neighbours, and repeats itself from tile to tile: within one tile, and
+/// but for neighbours, all the same must hold.
 #[test]
 fn dimensions_samples_frames_pixels_and_seeds_are_independent() {
-    const WIDTH: usize = 256;
     const CELLS: usize = 8;
     let check = |gpu: &Gpu, sampler: Sampler| -> Result<String> {
-        let values = |sample_index, seed| bits(gpu, sampler, &indices([256, 256], sample_index, seed));
+        let width = if sampler == Sampler::BlueNoise { sampler::TILE } else { 256 };
+        let values = |sample_index, seed| bits(gpu, sampler, &indices([width; 2], sample_index, seed));
+        let width = width as usize;
         let base = values(16, 5);
         // Pairs that share no pixel: of the pixels in every other block of the step's size.
         let neighbours = |dx: usize, dy: usize| -> Vec<_> {
             let even = |at: usize, step: usize| step == 0 || (at / step).is_multiple_of(2);
             let fits = |index: &usize| {
-                let (x, y) = (index % WIDTH, index / WIDTH);
-                x + dx < WIDTH && y + dy < WIDTH && if dx > 0 { even(x, dx) } else { even(y, dy) }
+                let (x, y) = (index % width, index / width);
+                x + dx < width && y + dy < width && if dx > 0 { even(x, dx) } else { even(y, dy) }
             };
-            (0..base.len()).filter(fits).map(|index| (base[index], base[index + dy * WIDTH + dx])).collect()
+            (0..base.len()).filter(fits).map(|index| (base[index], base[index + dy * width + dx])).collect()
         };
         let with = |other: Vec<[u32; 4]>| base.iter().copied().zip(other).collect::<Vec<_>>();
-        let relations = [
+        let mut relations = vec![
             ("itself", with(base.clone())),
             ("the next sample", with(values(17, 5))),
             ("the next frame's sample", with(values(32, 5))),
@@ -138,10 +127,11 @@ fn dimensions_samples_frames_pixels_and_seeds_are_independent() {
             ("the diagonal neighbour", neighbours(1, 1)),
             ("the next workgroup", neighbours(8, 0)),
         ];
+        relations.retain(|(name, _)| sampler != Sampler::BlueNoise || !name.ends_with("neighbour"));
         // A pixel's samples keep apart in each dimension of the Sobol sequence. Across dimensions, whose
-        // scrambles are independent, two samples are independent too.
+        // scrambles or masks are independent, two samples are independent too.
         let stratified =
-            |name: &str, a: usize, b: usize| sampler == Sampler::Sobol && name.ends_with("sample") && a == b;
+            |name: &str, a: usize, b: usize| sampler != Sampler::Random && name.ends_with("sample") && a == b;
         let tests = 2 * (relations.len() * 16 - 4);
         let mut least = 1.0_f64;
         for (name, pairs) in &relations {
@@ -189,6 +179,38 @@ fn dimensions_samples_frames_pixels_and_seeds_are_independent() {
             "sobol_keys_not_folded",
         ],
     );
+    prove(
+        |gpu| check(gpu, Sampler::BlueNoise),
+        &["lens_values_from_the_film", "blue_noise_one_mask_for_all", "blue_noise_without_seed"],
+    );
+}
+
+/// Catches seeds that only choose among the tile's numbers: no number of pictures would then have the
+/// mean that they should. Over the seeds each sample of a pixel goes everywhere in its four dimensions.
+#[test]
+fn over_the_seeds_a_sample_goes_everywhere() {
+    let check = |gpu: &Gpu| -> Result<String> {
+        let mut least = 1.0_f64;
+        let samples = [([3, 4], 0), ([3, 4], 1), ([300, 17], 15), ([0, 0], 1000)];
+        for sampler in SAMPLERS {
+            for (pixel, sample_index) in samples {
+                let of_seed = |seed| Index { pixel, sample_index, seed };
+                let indices: Vec<_> = (0..1 << 16).map(of_seed).collect();
+                let mut cells = vec![0; 1 << 12];
+                for values in bits(gpu, sampler, &indices) {
+                    cells[values.iter().fold(0, |cell, value| cell << 3 | (value >> 21) as usize)] += 1;
+                }
+                let p = evenness_p(&cells);
+                least = least.min(p);
+                ensure!(
+                    p > sidak(SAMPLERS.len() * samples.len()),
+                    "{sampler:?}: sample {sample_index} of {pixel:?} leaves places out: p = {p:.1e}"
+                );
+            }
+        }
+        Ok(format!("4096 cells, 65536 seeds of {} samples, least p = {least:.2}", samples.len()))
+    };
+    prove(check, &["sobol_without_seed", "blue_noise_without_the_seeds_mask", "hash_without_its_rounds"]);
 }
 
 /// Catches the same jitter in every frame, or in every sixteenth, which would freeze the noise: the
@@ -211,7 +233,12 @@ fn every_sample_has_another_place_in_its_pixel() {
     };
     prove(
         check,
-        &["sampler_without_index", "index_within_the_frame_only", "sobol_index_within_the_frame_only"],
+        &[
+            "sampler_without_index",
+            "index_within_the_frame_only",
+            "sobol_index_within_the_frame_only",
+            "blue_noise_index_within_the_frame_only",
+        ],
     );
 }
 
@@ -235,9 +262,15 @@ fn sobol_points_fill_every_elementary_interval() {
             ensure!(even, "{} samples are uneven in intervals of 2^-{splits:?}", block.len());
             Ok(())
         };
-        for (pixel, seed) in [([0, 0], 0), ([17, 300], 1), ([4095, 4], 0xdead_beef)] {
+        for (sampler, pixel, seed) in [
+            (Sampler::Sobol, [0, 0], 0),
+            (Sampler::Sobol, [17, 300], 1),
+            (Sampler::Sobol, [4095, 4], 0xdead_beef),
+            (Sampler::BlueNoise, [0, 0], 0),
+            (Sampler::BlueNoise, [17, 300], 1),
+        ] {
             let indices: Vec<_> = (0..4096).map(|sample_index| Index { pixel, sample_index, seed }).collect();
-            let values = bits(gpu, Sampler::Sobol, &indices);
+            let values = bits(gpu, sampler, &indices);
             for m in 0..=10_u32 {
                 for block in values.chunks(1 << m) {
                     fill(block, [m, 0, 0, 0], 1)?;
@@ -271,6 +304,7 @@ fn sobol_points_fill_every_elementary_interval() {
             "sobol_directions_of_another_bit",
             "sobol_fourth_of_the_table",
             "scramble_of_the_bits_as_they_are",
+            "blue_noise_added_and_not_xored",
         ],
     );
 }

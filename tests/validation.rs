@@ -5,7 +5,7 @@ mod common;
 use common::{Gpu, run, small};
 use std::sync::Arc;
 use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush, estimator_constants};
-use thinlens::passes::{Accumulate, Adaptive, SceneBuffers, Trace};
+use thinlens::passes::{Accumulate, Adaptive, BlueNoiseTile, SceneBuffers, Trace};
 use thinlens::renderer::schedule::Pass;
 use thinlens::vulkan::{Buffer, Commands, Image, Residence};
 
@@ -33,9 +33,10 @@ fn record_two_passes(gpu: &Gpu, barrier: bool) {
     let size = size_of::<Counters>() as u64;
     let counters = Arc::new(Buffer::new(device, "counters", size, Residence::Device).expect("a buffer"));
     let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene)).expect("a scene");
+    let tile = BlueNoiseTile::new(device).expect("a tile");
     let (trace, accumulate) = (
-        Trace::new(device, Trace::SHADER, constants, &scene).expect("trace"),
-        Accumulate::new(device, Accumulate::SHADER, constants).expect("accumulate"),
+        Trace::new(device, Trace::SHADER, constants, &scene, &tile).expect("trace"),
+        Accumulate::new(device, Accumulate::SHADER, constants, &tile).expect("accumulate"),
     );
     let adaptive = Adaptive::new(device, None).expect("images");
     let traced = trace.bind(&scene, &batch, &counters, &adaptive, 0).expect("bindings");

@@ -8,8 +8,14 @@
 
 const uint SAMPLER_RANDOM = 0u;
 const uint SAMPLER_SOBOL = 1u;
+const uint SAMPLER_BLUE_NOISE = 2u;
 
 layout(constant_id = 0) const uint SAMPLER = SAMPLER_RANDOM;
+
+// The tile of examples/blue_noise_tile.rs: a number of 16 bits a pixel, row by row, eight a texel.
+layout(set = 0, binding = 16) uniform utextureBuffer blue_noise_tile;
+const uint TILE = 128u;
+const uvec4 BLUE_NOISE_SCRAMBLE = uvec4(0x50a00e30u, 0x93e15e34u, 0x0b56f629u, 0x2a323757u);
 
 // Dimension blocks. FILM_AND_LENS holds the film jitter in xy and the lens point in zw.
 const uint BLOCK_FILM_AND_LENS = 0u;
@@ -28,6 +34,11 @@ uvec4 pcg4d(uvec4 v) {
     v.z += v.x * v.y;
     v.w += v.y * v.z;
     return v;
+}
+
+// The lower half of the hash's bits is its worse one, and decides what comes first of what is made of it.
+uvec4 folded(uvec4 hash) {
+    return hash ^ (hash >> 16u);
 }
 
 // Flips each bit depending on the bits below it, as a hash of them and the key decides: an Owen
@@ -85,15 +96,41 @@ uvec4 sobol_film_and_lens(uint index, uvec4 keys) {
     return bitfieldReverse(scramble_upwards(reversed, keys));
 }
 
+// The mask that the blue-noise tile has for a pixel, with the seed's. A seed shifts the tile too, by
+// bits that the mask leaves unused.
+uvec4 blue_noise_mask(uint seed, uvec2 pixel, uint block) {
+    uvec4 shift = folded(pcg4d(uvec4(0u, 0u, block, seed)));
+    uvec2 at = (pixel + shift.xy) & (TILE - 1u);
+    uint place = at.y * TILE + at.x;
+    uint pair = texelFetch(blue_noise_tile, int(place >> 3u))[place >> 1u & 3u];
+    uint number = bitfieldExtract(pair, int(16u * (place & 1u)), 16);
+    return shift ^ folded(pcg4d(uvec4(number, 0u, 0u, 0u)));
+}
+
+// What all samples of a pixel have in common.
+uvec4 sample_keys(uint seed, uvec2 pixel, uint block) {
+    switch (SAMPLER) {
+    case SAMPLER_BLUE_NOISE:
+        return blue_noise_mask(seed, pixel, block);
+    case SAMPLER_SOBOL:
+        return folded(pcg4d(uvec4(pixel, block, seed)));
+    default:
+        return uvec4(pixel, seed + block * 0x9e3779b9u, 0u);
+    }
+}
+
 // Four values in [0, 1), multiples of 2^-24, which f32 holds exactly.
-vec4 sample_values(uint seed, uvec2 pixel, uint sample_index, uint block) {
+vec4 sample_values(uvec4 keys, uint sample_index) {
     uvec4 bits;
-    if (SAMPLER == SAMPLER_SOBOL) {
-        // The lower half of the hash's bits is its worse one, and decides the scramble's first bits.
-        uvec4 keys = pcg4d(uvec4(pixel, block, seed));
-        bits = sobol_film_and_lens(sample_index, keys ^ (keys >> 16u));
-    } else {
-        bits = pcg4d(uvec4(pixel, sample_index, seed + block * 0x9e3779b9u));
+    switch (SAMPLER) {
+    case SAMPLER_BLUE_NOISE:
+        bits = keys ^ sobol_film_and_lens(sample_index, BLUE_NOISE_SCRAMBLE);
+        break;
+    case SAMPLER_SOBOL:
+        bits = sobol_film_and_lens(sample_index, keys);
+        break;
+    default:
+        bits = pcg4d(uvec4(keys.xy, sample_index, keys.z));
     }
     return vec4(bits >> 8u) * (1.0 / 16777216.0);
 }

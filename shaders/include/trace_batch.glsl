@@ -32,8 +32,9 @@ vec4 trace_batch(TracePush push, uvec2 pixel, out float moment) {
     moment = 0.0;
     uint rays = 0u;
     uint rejected = 0u;
+    uvec4 keys = sample_keys(push.seed, pixel, BLOCK_FILM_AND_LENS);
     for (uint i = 0u; i < push.sample_count; ++i) {
-        vec4 xi = sample_values(push.seed, pixel, push.first_sample + i, BLOCK_FILM_AND_LENS);
+        vec4 xi = sample_values(keys, push.first_sample + i);
         vec2 offset = film_offset(xi.xy, push.camera.jitter);
         vec2 q = view_plane_point(push.camera, push.lattice.extent, pixel, offset);
         Ray ray = primary_ray(push.camera, q, concentric_disk(xi.zw));

@@ -181,6 +181,7 @@ pub fn sampler_constant(sampler: Sampler) -> u32 {
     match sampler {
         Sampler::Random => 0,
         Sampler::Sobol => 1,
+        Sampler::BlueNoise => 2,
     }
 }
 

@@ -1,13 +1,16 @@
 //! Merges the tracing image into the film.
 
-use super::Adaptive;
+use super::{Adaptive, BlueNoiseTile};
 use crate::error::Result;
 use crate::gpu_types::AccumulatePush;
 use crate::vulkan::{Binding, BindingSet, ComputePipeline, Device, Image, Recording, Shader, shader};
 use std::sync::Arc;
 
 /// Pass 2. See `shaders/accumulate.comp`.
-pub struct Accumulate(ComputePipeline);
+pub struct Accumulate {
+    pipeline: ComputePipeline,
+    tile: BlueNoiseTile,
+}
 
 impl Accumulate {
     /// The shader.
@@ -18,13 +21,18 @@ impl Accumulate {
     ///
     /// # Errors
     /// What Vulkan says.
-    pub fn new(device: &Arc<Device>, shader: Shader, estimator: [u32; 2]) -> Result<Self> {
-        Ok(Self(ComputePipeline::new(device, shader, &estimator)?))
+    pub fn new(
+        device: &Arc<Device>,
+        shader: Shader,
+        estimator: [u32; 2],
+        tile: &BlueNoiseTile,
+    ) -> Result<Self> {
+        Ok(Self { pipeline: ComputePipeline::new(device, shader, &estimator)?, tile: tile.clone() })
     }
 
     /// Width and height of a workgroup: tiles are cut at multiples of it.
     pub fn local_size(&self) -> [u32; 2] {
-        self.0.local_size()
+        self.pipeline.local_size()
     }
 
     /// From the tracing image `batch` into `film`. Once some pixels have stopped, `list` of `adaptive` holds
@@ -45,8 +53,9 @@ impl Accumulate {
             adaptive.bind_list(13, list),
             adaptive.bind_batch_moments(),
             adaptive.bind_film_moments(),
+            self.tile.binding(),
         ];
-        BindingSet::new(&self.0, &bindings)
+        BindingSet::new(&self.pipeline, &bindings)
     }
 
     /// Merges `extent` pixels of the push constants' lattice.
@@ -57,6 +66,6 @@ impl Accumulate {
         push: &AccumulatePush,
         extent: [u32; 2],
     ) {
-        recording.dispatch(&self.0, bindings, bytemuck::bytes_of(push), extent);
+        recording.dispatch(&self.pipeline, bindings, bytemuck::bytes_of(push), extent);
     }
 }

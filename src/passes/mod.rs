@@ -4,12 +4,14 @@
 
 mod accumulate;
 mod adaptive;
+mod blue_noise;
 mod resolve;
 mod select;
 mod trace;
 
 pub use accumulate::Accumulate;
 pub use adaptive::Adaptive;
+pub use blue_noise::BlueNoiseTile;
 pub use resolve::Resolve;
 pub use select::Select;
 pub use trace::{SceneBuffers, Trace};

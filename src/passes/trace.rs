@@ -1,6 +1,6 @@
 //! Traces a batch of samples for each pixel of a lattice into the tracing image.
 
-use super::Adaptive;
+use super::{Adaptive, BlueNoiseTile};
 use crate::error::Result;
 use crate::gpu_types::{SceneData, TracePush};
 use crate::vulkan::{
@@ -10,7 +10,10 @@ use crate::vulkan::{
 use std::sync::Arc;
 
 /// Pass 1. See `shaders/trace.comp`.
-pub struct Trace(ComputePipeline);
+pub struct Trace {
+    pipeline: ComputePipeline,
+    tile: BlueNoiseTile,
+}
 
 /// With more shapes in lists, materials or lights than these the scene is not copied: what would be
 /// unrolled grows too long.
@@ -142,8 +145,10 @@ impl Trace {
         shader: Shader,
         estimator: [u32; 2],
         scene: &SceneBuffers,
+        tile: &BlueNoiseTile,
     ) -> Result<Self> {
-        Ok(Self(ComputePipeline::new(device, shader, &scene.constants(estimator))?))
+        let pipeline = ComputePipeline::new(device, shader, &scene.constants(estimator))?;
+        Ok(Self { pipeline, tile: tile.clone() })
     }
 
     /// From `scene` into the tracing image `batch`, counting into `counters`. Once some pixels have stopped,
@@ -161,13 +166,13 @@ impl Trace {
     ) -> Result<BindingSet> {
         let front = [Binding::Image(Arc::clone(batch)), Binding::Buffer(Arc::clone(counters))];
         let mut bindings = scene.bindings(front);
-        bindings.extend([adaptive.bind_list(13, list), adaptive.bind_batch_moments()]);
-        BindingSet::new(&self.0, &bindings)
+        bindings.extend([adaptive.bind_list(13, list), adaptive.bind_batch_moments(), self.tile.binding()]);
+        BindingSet::new(&self.pipeline, &bindings)
     }
 
     /// Width and height of a workgroup: tiles are cut at multiples of it.
     pub fn local_size(&self) -> [u32; 2] {
-        self.0.local_size()
+        self.pipeline.local_size()
     }
 
     /// Traces `extent` pixels of the push constants' lattice.
@@ -178,6 +183,6 @@ impl Trace {
         push: &TracePush,
         extent: [u32; 2],
     ) {
-        recording.dispatch(&self.0, bindings, bytemuck::bytes_of(push), extent);
+        recording.dispatch(&self.pipeline, bindings, bytemuck::bytes_of(push), extent);
     }
 }

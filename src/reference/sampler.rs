@@ -3,6 +3,13 @@
 use crate::settings::Sampler;
 use std::f64::consts::FRAC_PI_4;
 
+/// The tile of `examples/blue_noise_tile.rs`: a number of 16 bits a pixel, row by row.
+const NUMBERS: &[u8; 2 * (TILE * TILE) as usize] = include_bytes!("../../shaders/blue_noise_tile.bin");
+/// The pixels along an edge of it.
+pub const TILE: u32 = 128;
+/// The keys of the scramble that all pixels share.
+const BLUE_NOISE_SCRAMBLE: [u32; 4] = [0x50a0_0e30, 0x93e1_5e34, 0x0b56_f629, 0x2a32_3757];
+
 /// M. Jarzynski and M. Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020: pcg4d.
 pub fn pcg4d(input: [u32; 4]) -> [u32; 4] {
     let advanced = input.map(|value| value.wrapping_mul(1_664_525).wrapping_add(1_013_904_223));
@@ -22,16 +29,43 @@ pub fn sample_values(sampler: Sampler, seed: u32, pixel: [u32; 2], index: u32, b
     let [x, y] = pixel;
     let bits = match sampler {
         Sampler::Random => pcg4d([x, y, index, seed.wrapping_add(block.wrapping_mul(0x9e37_79b9))]),
-        Sampler::Sobol => {
-            // The scramble's first bits come from a key's lower half, which the hash mixes less well.
-            let keys = pcg4d([x, y, block, seed]).map(|key| key ^ (key >> 16));
-            let [first, second, third, fourth] = sobol(index);
-            // The film takes the third and fourth dimension, the lens the first two.
-            let of_film_and_lens = [third, fourth, first, second];
-            [0, 1, 2, 3].map(|axis| owen_scramble(of_film_and_lens[axis], keys[axis]))
+        Sampler::Sobol => scrambled(index, folded([x, y, block, seed])),
+        Sampler::BlueNoise => {
+            let shift = folded([0, 0, block, seed]);
+            // A value leaves the last byte of its bits unused.
+            let (column, row) = (x.wrapping_add(shift[0]) % TILE, y.wrapping_add(shift[1]) % TILE);
+            let place = 2 * (row * TILE + column) as usize;
+            let number = u16::from_le_bytes([NUMBERS[place], NUMBERS[place + 1]]);
+            blue_noise_bits(number, seed, index, block)
         }
     };
-    bits.map(|bits| f64::from(bits >> 8) / 16_777_216.0)
+    bits.map(unit)
+}
+
+/// The blue-noise sampler's bits for a pixel that has this number: of a Sobol sequence with one scramble
+/// for all pixels, xored with a mask that the number chooses, and one that the seed does.
+pub fn blue_noise_bits(number: u16, seed: u32, index: u32, block: u32) -> [u32; 4] {
+    let (shift, mask) = (folded([0, 0, block, seed]), folded([number.into(), 0, 0, 0]));
+    let point = scrambled(index, BLUE_NOISE_SCRAMBLE);
+    [0, 1, 2, 3].map(|axis| point[axis] ^ shift[axis] ^ mask[axis])
+}
+
+/// The value in [0, 1) of these bits: the first 24 count.
+pub fn unit(bits: u32) -> f64 {
+    f64::from(bits >> 8) / 16_777_216.0
+}
+
+/// The hash, with its lower halves improved by the upper ones: the hash mixes them less well, and what
+/// is made of it begins with them.
+fn folded(input: [u32; 4]) -> [u32; 4] {
+    pcg4d(input).map(|hash| hash ^ (hash >> 16))
+}
+
+/// The Sobol point with the film in the third and fourth dimension, the lens in the first two, scrambled.
+fn scrambled(index: u32, keys: [u32; 4]) -> [u32; 4] {
+    let [first, second, third, fourth] = sobol(index);
+    let of_film_and_lens = [third, fourth, first, second];
+    [0, 1, 2, 3].map(|axis| owen_scramble(of_film_and_lens[axis], keys[axis]))
 }
 
 /// The first four dimensions of the Sobol sequence, in multiples of 2^-32: S. Joe and F. Kuo, "Notes

@@ -13,7 +13,7 @@ pub use tally::Progress;
 
 use crate::error::{Error, Result};
 use crate::gpu_types::{Counters, ResolvePush, SceneData, estimator_constants, sampler_constant};
-use crate::passes::{Accumulate, Resolve, SceneBuffers, Select, Shaders, Trace};
+use crate::passes::{Accumulate, BlueNoiseTile, Resolve, SceneBuffers, Select, Shaders, Trace};
 use crate::scene::SceneRef;
 use crate::settings::{Overlay, Sampler, Settings, View};
 use crate::vulkan::{BindingSet, Buffer, Device, Image, Recording, Residence, SOFTWARE};
@@ -42,6 +42,7 @@ pub struct Renderer {
     shaders: Shaders,
     /// What the passes are compiled for: see [`estimator_constants`].
     constants: [u32; 2],
+    tile: BlueNoiseTile,
     accumulate: Accumulate,
     select: Select,
     resolve: Resolve,
@@ -87,13 +88,15 @@ impl Renderer {
         // Those of the default settings.
         let constants = [sampler_constant(Sampler::default()), 0];
         let size = size_of::<Counters>() as u64;
+        let tile = BlueNoiseTile::new(device)?;
         Ok(Self {
             scene: None,
             film: None,
             trace_bindings: None,
             shaders,
             constants,
-            accumulate: Accumulate::new(device, shaders.accumulate, constants)?,
+            accumulate: Accumulate::new(device, shaders.accumulate, constants, &tile)?,
+            tile,
             select: Select::new(device, shaders.select, constants)?,
             resolve: Resolve::new(device, shaders.resolve)?,
             counters: Arc::new(Buffer::new(device, "counters", size, Residence::Device)?),
@@ -132,7 +135,7 @@ impl Renderer {
         if self.constants != constants {
             self.device.wait_idle()?;
             (self.scene, self.film, self.trace_bindings) = (None, None, None);
-            self.accumulate = Accumulate::new(&self.device, self.shaders.accumulate, constants)?;
+            self.accumulate = Accumulate::new(&self.device, self.shaders.accumulate, constants, &self.tile)?;
             self.select = Select::new(&self.device, self.shaders.select, constants)?;
             self.constants = constants;
         }
@@ -186,7 +189,7 @@ impl Renderer {
         self.device.wait_idle()?;
         (self.scene, self.trace_bindings) = (None, None);
         let buffers = SceneBuffers::new(&self.device, &SceneData::new(scene))?;
-        let trace = Trace::new(&self.device, self.shaders.trace, self.constants, &buffers)?;
+        let trace = Trace::new(&self.device, self.shaders.trace, self.constants, &buffers, &self.tile)?;
         self.tally.forget_rate();
         self.scene = Some(LoadedScene { scene: scene.clone(), buffers, trace });
         Ok(())

@@ -1,10 +1,10 @@
 //! Runs the shaders' functions one by one, on inputs of a test's choice.
 
-use super::Gpu;
+use super::{Gpu, pixels};
 use bytemuck::{Pod, Zeroable};
 use std::sync::Arc;
 use thinlens::gpu_types::{SceneData, sampler_constant};
-use thinlens::passes::SceneBuffers;
+use thinlens::passes::{BlueNoiseTile, SceneBuffers};
 use thinlens::scene::Scene;
 use thinlens::settings::Sampler;
 use thinlens::vulkan::{Binding, BindingSet, Buffer, Commands, ComputePipeline, Residence};
@@ -45,10 +45,15 @@ pub fn probe_as<In: Pod, Out: Pod>(
     let output = Arc::new(output);
     let front = [Binding::Buffer(input), Binding::Buffer(Arc::clone(&output))];
     let scene = scene.map(|scene| SceneBuffers::new(device, &SceneData::new(scene)).expect("a scene"));
-    let (bindings, constants) = match &scene {
+    let (mut bindings, constants) = match &scene {
         Some(scene) => (scene.bindings(front), scene.constants([sampler, 0])),
         None => ((0..).zip(front).collect(), vec![sampler]),
     };
+    // Few of the functions need sample values.
+    let tile = BlueNoiseTile::new(device).expect("a tile").binding();
+    if shader.interface().resources.contains_key(&tile.0) {
+        bindings.push(tile);
+    }
     let answers = |constants: &[u32]| {
         let pipeline = ComputePipeline::new(device, shader, constants).expect("a pipeline");
         let bindings = BindingSet::new(&pipeline, &bindings).expect("bindings");
@@ -65,6 +70,25 @@ pub fn probe_as<In: Pod, Out: Pod>(
         assert!(found == other, "{name}: copying the scene changes what comes out");
     }
     bytemuck::allocation::pod_collect_to_vec(&found)
+}
+
+/// A sample's place in the sequences of pixels and seeds.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct Index {
+    pub pixel: [u32; 2],
+    pub sample_index: u32,
+    pub seed: u32,
+}
+
+/// The device's values of these samples, in multiples of [`STEP`].
+pub fn sample_bits(gpu: &Gpu, sampler: Sampler, indices: &[Index]) -> Vec<[u32; 4]> {
+    probe_as(gpu, "sampler", sampler, None, &[], indices)
+}
+
+/// A sample of each pixel.
+pub fn indices(size: [u32; 2], sample_index: u32, seed: u32) -> Vec<Index> {
+    pixels(size).map(|pixel| Index { pixel, sample_index, seed }).collect()
 }
 
 /// One dispatch, until it is done.

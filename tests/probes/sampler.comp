@@ -24,7 +24,8 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i < inputs.length()) {
         In given = inputs[i];
-        vec4 xi = sample_values(given.seed, given.pixel, given.sample_index, BLOCK_FILM_AND_LENS);
+        uvec4 keys = sample_keys(given.seed, given.pixel, BLOCK_FILM_AND_LENS);
+        vec4 xi = sample_values(keys, given.sample_index);
         outputs[i].values = uvec4(xi * 16777216.0);
     }
 }

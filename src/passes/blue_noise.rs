@@ -1,0 +1,26 @@
+//! What the blue-noise sampler reads.
+
+use crate::error::Result;
+use crate::vulkan::{Binding, Device, TexelBuffer};
+use std::sync::Arc;
+
+/// The tile of `examples/blue_noise_tile.rs` on the device, for every shader that uses
+/// `shaders/include/sampling.glsl`.
+#[derive(Clone)]
+pub struct BlueNoiseTile(Arc<TexelBuffer>);
+
+impl BlueNoiseTile {
+    /// Uploads it.
+    ///
+    /// # Errors
+    /// [`crate::error::Error::Memory`], or what Vulkan says.
+    pub fn new(device: &Arc<Device>) -> Result<Self> {
+        let numbers = include_bytes!("../../shaders/blue_noise_tile.bin");
+        Ok(Self(Arc::new(TexelBuffer::upload(device, "blue-noise tile", numbers)?)))
+    }
+
+    /// It, and where the shaders want it.
+    pub fn binding(&self) -> (u32, Binding) {
+        (16, Binding::Texels(Arc::clone(&self.0)))
+    }
+}
