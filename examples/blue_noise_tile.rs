@@ -66,9 +66,10 @@ impl Stripes {
 
     /// Where a pixel's centre lies. The tile repeats, so a whole number of periods goes into it.
     fn of_pixel(&self, pixel: usize) -> u16 {
-        let step = self.wave.map(|wave| (wave * SIZE as f32).round() as i32);
-        let [column, row] = [pixel % SIZE, pixel / SIZE].map(|at| at as i32);
-        ((step[0] * column + step[1] * row) * (65536 / SIZE as i32)) as u16
+        let step = self.wave.map(|wave| (wave * SIZE as f32).round() as i32 as u16);
+        let [column, row] = [pixel % SIZE, pixel / SIZE].map(|at| at as u16);
+        let turns = step[0].wrapping_mul(column).wrapping_add(step[1].wrapping_mul(row));
+        turns.wrapping_mul((65536 / SIZE) as u16)
     }
 }
 
