@@ -46,7 +46,8 @@ impl Bvh {
             return None;
         }
         let bounds: Vec<Bounds> = shapes.iter().map(|(shape, _)| shape.bounds()).collect();
-        let params = BvhBuildParams { max_prims_per_leaf: 3, ..BvhBuildParams::medium_build() };
+        // Measured on a million triangles: 5% fewer steps than a medium build, for half a second more.
+        let params = BvhBuildParams { max_prims_per_leaf: 2, ..BvhBuildParams::slow_build() };
         let tree = build_cwbvh(&bounds, params, &mut Duration::default());
         Some(Self {
             nodes: bytemuck::cast_slice(&tree.nodes).to_vec(),
