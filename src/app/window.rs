@@ -39,6 +39,8 @@ struct Open {
     panel: Panel,
     window: Arc<Window>,
     last_frame: Instant,
+    /// When the first event came that no frame has shown yet.
+    unshown_since: Option<Instant>,
     frames_to_draw: u32,
     shown: (u32, u32),
     /// Lens diameter, focal distance and jitter that were reported last.
@@ -99,6 +101,7 @@ impl ApplicationHandler for Viewer {
                     _ => {}
                 }
                 open.frames_to_draw = FRAMES_AFTER_EVENT;
+                open.unshown_since.get_or_insert_with(Instant::now);
                 let scale = open.platform.hidpi_factor();
                 let event: Event<()> = Event::WindowEvent { window_id, event };
                 open.platform.handle_event(open.imgui.io_mut(), &open.window, &event);
@@ -153,6 +156,7 @@ impl Open {
             panel: Panel::new(options.settings.clone(), options.scene.clone()),
             window,
             last_frame: Instant::now(),
+            unshown_since: None,
             frames_to_draw: FRAMES_AFTER_EVENT,
             shown: (0, 0),
             state: [f32::NAN; 3],
@@ -231,13 +235,17 @@ impl Open {
         }
         self.panel.accept();
         let finished_before = self.graphics.finished();
-        let pace = Pace { budget: if dragging { DRAGGING_BUDGET } else { RESTING_BUDGET }, preview: true };
+        let pace =
+            Pace { budget: if dragging { DRAGGING_BUDGET } else { RESTING_BUDGET }, preview: true };
         self.graphics.draw(&image, &mut self.imgui, pace)?;
         if !finished_before && self.graphics.finished() {
             // What was just recorded is on the screen; the panel's figures come a frame later.
             self.frames_to_draw = self.frames_to_draw.max(FRAMES_AFTER_EVENT);
         }
         self.report();
+        if let Some(since) = self.unshown_since.take() {
+            log::trace!("presented {:.2} ms after its first event", 1e3 * since.elapsed().as_secs_f64());
+        }
         Ok(())
     }
 

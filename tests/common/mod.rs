@@ -4,6 +4,7 @@
 pub mod probe;
 pub mod scenes;
 pub mod statistics;
+pub mod viewer;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -1,0 +1,287 @@
+//! The viewer under Xvfb, driven as a user would. Needs Xvfb and xdotool: a missing one fails.
+
+use super::{CACHE, decode_png, render_png};
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::io::{BufRead, BufReader};
+use std::process::{Child, Command, Stdio};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::time::{Duration, Instant};
+use x11rb::connection::Connection;
+use x11rb::protocol::xproto::{ClientMessageEvent, ConnectionExt, EventMask, ImageFormat, Window};
+use x11rb::rust_connection::RustConnection;
+
+/// Right of the panel.
+const PICTURE_LEFT: usize = 340;
+/// Long enough for a busy machine; what is waited for comes in well under a second elsewhere.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Kills its process with the test.
+struct Killed(Child);
+
+impl Drop for Killed {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// A viewer with a display of its own.
+pub struct Viewer {
+    program: Killed,
+    lines: Receiver<String>,
+    pub controls: RefCell<HashMap<String, [i32; 4]>>,
+    /// Samples and target that were shown last.
+    pub shown: RefCell<(u32, u32)>,
+    /// Lens diameter, focal distance and jitter.
+    pub state: RefCell<[f32; 3]>,
+    /// All samples that were shown, since it was cleared last.
+    pub history: RefCell<Vec<u32>>,
+    pub display: String,
+    connection: RustConnection,
+    root: Window,
+    pub size: [u16; 2],
+    _server: Killed,
+}
+
+impl Viewer {
+    /// Starts a display and the viewer in it under validation, and waits for its panel.
+    pub fn start(size: [u16; 2], arguments: &[&str]) -> Self {
+        Self::start_as_user(size, &[&["--validation"], arguments].concat())
+    }
+
+    /// Likewise, with no more checks than a user has.
+    pub fn start_as_user(size: [u16; 2], arguments: &[&str]) -> Self {
+        let mut server = Command::new("Xvfb")
+            .args(["-displayfd", "1", "-screen", "0", "1280x1024x24", "-nolisten", "tcp"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .map(Killed)
+            .expect("Xvfb, which setup.sh installs");
+        let mut number = String::new();
+        let out = server.0.stdout.take().expect("piped");
+        BufReader::new(out).read_line(&mut number).expect("Xvfb says its display");
+        let display = format!(":{}", number.trim());
+
+        let mut program = Command::new(env!("CARGO_BIN_EXE_thinlens"))
+            .args(["view", "--size", &format!("{}x{}", size[0], size[1])])
+            .args(arguments)
+            .env("DISPLAY", &display)
+            .env("XDG_CACHE_HOME", CACHE)
+            .env_remove("WAYLAND_DISPLAY")
+            .env_remove("WAYLAND_SOCKET")
+            .env("RUST_LOG", "thinlens=trace")
+            .stderr(Stdio::piped())
+            .spawn()
+            .map(Killed)
+            .expect("it starts");
+        let (sender, lines) = channel();
+        let log = BufReader::new(program.0.stderr.take().expect("piped"));
+        std::thread::spawn(move || {
+            for line in log.lines().map_while(Result::ok) {
+                if sender.send(line).is_err() {
+                    break;
+                }
+            }
+        });
+        let (connection, screen) = x11rb::connect(Some(&display)).expect("a connection to Xvfb");
+        let root = connection.setup().roots[screen].root;
+        let viewer = Self {
+            program,
+            lines,
+            controls: RefCell::default(),
+            shown: RefCell::default(),
+            state: RefCell::default(),
+            history: RefCell::default(),
+            display,
+            connection,
+            root,
+            size,
+            _server: server,
+        };
+        viewer.wait_for("the panel", |viewer| viewer.controls.borrow().contains_key("Reset"));
+        viewer
+    }
+
+    /// Takes in the next line of the log, if one comes in time.
+    pub fn listen(&self, patience: Duration) -> Option<String> {
+        let line = match self.lines.recv_timeout(patience) {
+            Ok(line) => line,
+            Err(RecvTimeoutError::Timeout) => return None,
+            Err(RecvTimeoutError::Disconnected) => panic!("the viewer has ended"),
+        };
+        assert!(!line.contains("validation:") && !line.contains("panicked"), "{line}");
+        if let Some(control) = line.split("control '").nth(1) {
+            let (name, place) = control.split_once("' at ").expect("a name and a place");
+            let place: Vec<i32> = place.split(' ').map(|number| number.parse().expect("a number")).collect();
+            self.controls.borrow_mut().insert(name.to_owned(), place.try_into().expect("four numbers"));
+        }
+        if let Some(state) = line.split("] lens ").nth(1) {
+            let numbers = state.split(' ').filter_map(|number| number.parse().ok());
+            *self.state.borrow_mut() = numbers.collect::<Vec<f32>>().try_into().expect("three numbers");
+        }
+        if let Some(shown) = line.split("shown ").nth(1) {
+            let (samples, target) = shown.split_once('/').expect("two numbers");
+            let target = target.split(' ').next().expect("a number");
+            *self.shown.borrow_mut() =
+                (samples.parse().expect("a number"), target.parse().expect("a number"));
+            self.history.borrow_mut().push(self.shown.borrow().0);
+        }
+        Some(line)
+    }
+
+    pub fn wait_for(&self, what: &str, reached: impl Fn(&Self) -> bool) {
+        let deadline = Instant::now() + PATIENCE;
+        while !reached(self) {
+            assert!(Instant::now() < deadline, "no {what}; shown {:?}", self.shown.borrow());
+            self.listen(Duration::from_millis(20));
+        }
+    }
+
+    pub fn wait_until_done(&self) {
+        self.wait_for("whole picture", |viewer| {
+            let (samples, target) = *viewer.shown.borrow();
+            samples > 0 && samples == target
+        });
+    }
+
+    pub fn xdotool(&self, arguments: &str) {
+        let status =
+            Command::new("xdotool").args(arguments.split(' ')).env("DISPLAY", &self.display).status();
+        assert!(status.expect("xdotool, which setup.sh installs").success(), "xdotool {arguments}");
+    }
+
+    /// Drags a slider from its middle to this share of its width, a step at a time as a hand does.
+    pub fn drag(&self, control: &str, shares: &[f64], reached: impl Fn(&Self) -> bool) {
+        self.until(control, reached, || self.drag_once(control, shares));
+    }
+
+    /// A busy machine may deliver a press late, so that a hand would try again, and so does this.
+    pub fn until(&self, what: &str, reached: impl Fn(&Self) -> bool, act: impl Fn()) {
+        for _ in 0..5 {
+            act();
+            let deadline = Instant::now() + Duration::from_secs(3);
+            while Instant::now() < deadline {
+                if reached(self) {
+                    return;
+                }
+                self.listen(Duration::from_millis(20));
+            }
+        }
+        panic!("{what} does nothing: {:?}, shown {:?}", self.state.borrow(), self.shown.borrow());
+    }
+
+    fn drag_once(&self, control: &str, shares: &[f64]) {
+        let at = |share: f64| {
+            let [x, y, width, height] = self.controls.borrow()[control];
+            let x = x + (f64::from(width) * share).round() as i32;
+            format!("mousemove {} {}", x.max(0), y + height / 2)
+        };
+        self.xdotool(&at(shares[0]));
+        self.frames(3);
+        self.xdotool("mousedown 1");
+        self.frames(3);
+        for share in &shares[1..] {
+            self.xdotool(&at(*share));
+            self.frames(3);
+        }
+        self.xdotool("mouseup 1");
+        // Out of the way of tooltips and highlights.
+        self.xdotool(&format!("mousemove {} {}", self.size[0] - 5, self.size[1] - 5));
+        self.frames(2);
+    }
+
+    pub fn click(&self, control: &str, reached: impl Fn(&Self) -> bool) {
+        self.until(control, reached, || self.click_once(control));
+    }
+
+    fn click_once(&self, control: &str) {
+        let [x, y, _, height] = self.controls.borrow()[control];
+        self.xdotool(&format!("mousemove {} {}", x + height / 2, y + height / 2));
+        self.frames(3);
+        self.xdotool("mousedown 1");
+        self.frames(3);
+        self.xdotool("mouseup 1");
+        self.xdotool(&format!("mousemove {} {}", self.size[0] - 5, self.size[1] - 5));
+        self.frames(3);
+    }
+
+    /// Waits until the viewer has drawn that many frames more, so that it has seen an event.
+    pub fn frames(&self, count: usize) {
+        let deadline = Instant::now() + PATIENCE;
+        let mut seen = 0;
+        while seen < count {
+            assert!(Instant::now() < deadline, "only {seen} of {count} frames");
+            if self.listen(Duration::from_millis(20)).is_some_and(|line| line.ends_with("frame")) {
+                seen += 1;
+            }
+        }
+    }
+
+    /// What the screen shows of a rectangle: left, top, width, height.
+    pub fn screen(&self, [left, top]: [i16; 2], [width, height]: [u16; 2]) -> Vec<[u8; 3]> {
+        let reply = self.connection.get_image(ImageFormat::Z_PIXMAP, self.root, left, top, width, height, !0);
+        let data = reply.expect("a request").reply().expect("a screenshot").data;
+        data.chunks_exact(4).map(|pixel| [pixel[2], pixel[1], pixel[0]]).collect()
+    }
+
+    /// What the screen shows of the window, right of the panel.
+    pub fn picture(&self) -> Vec<[u8; 3]> {
+        right_of_panel(&self.screen([0, 0], self.size), usize::from(self.size[0]))
+    }
+
+    /// Waits until the screen shows what `render` gives, but for `tolerance` levels of a channel.
+    pub fn expect_picture(&self, what: &str, tolerance: u8, render: &[&str]) {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let size = format!("{}x{}", self.size[0], self.size[1]);
+        let png = render_png(folder.path(), &[&["--size", &size], render].concat());
+        let expected = right_of_panel(&decode_png(&png).1, usize::from(self.size[0]));
+        let deadline = Instant::now() + PATIENCE;
+        loop {
+            let shown = self.picture();
+            let worst = difference(&shown, &expected);
+            if worst <= tolerance {
+                break;
+            }
+            assert!(Instant::now() < deadline, "{what}: off by {worst} levels");
+            self.listen(Duration::from_millis(50));
+        }
+    }
+
+    /// Asks the window to close, as a window manager does, and waits for the end.
+    pub fn close(mut self) {
+        let atom = |name: &[u8]| {
+            self.connection.intern_atom(false, name).expect("a request").reply().expect("an atom").atom
+        };
+        let (protocols, delete) = (atom(b"WM_PROTOCOLS"), atom(b"WM_DELETE_WINDOW"));
+        let windows =
+            self.connection.query_tree(self.root).expect("a request").reply().expect("the windows").children;
+        for window in windows {
+            let event = ClientMessageEvent::new(32, window, protocols, [delete, 0, 0, 0, 0]);
+            self.connection.send_event(false, window, EventMask::NO_EVENT, event).expect("a request");
+        }
+        self.connection.flush().expect("a connection");
+        let deadline = Instant::now() + PATIENCE;
+        let status = loop {
+            if let Some(status) = self.program.0.try_wait().expect("a process") {
+                break status;
+            }
+            assert!(Instant::now() < deadline, "it does not close");
+            std::thread::sleep(Duration::from_millis(10));
+        };
+        let log: Vec<String> = self.lines.iter().collect();
+        assert!(!log.iter().any(|line| line.contains("validation:")), "{log:#?}");
+        assert!(status.success(), "{status}: {log:#?}");
+    }
+}
+
+fn right_of_panel(pixels: &[[u8; 3]], width: usize) -> Vec<[u8; 3]> {
+    pixels.chunks_exact(width).flat_map(|row| row[PICTURE_LEFT..].to_vec()).collect()
+}
+
+/// The largest difference of a channel.
+pub fn difference(a: &[[u8; 3]], b: &[[u8; 3]]) -> u8 {
+    assert_eq!(a.len(), b.len());
+    a.as_flattened().iter().zip(b.as_flattened()).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0)
+}
