@@ -159,6 +159,7 @@ pub struct ResolvePush {
     pub extent: [u32; 2],
     pub preview_stride: u32,
     pub exposure: f32,
+    pub blue_first: u32,
 }
 
 /// `SAMPLER` of sampling.glsl, the specialization constant 0.

@@ -57,6 +57,7 @@ pub struct Renderer {
     needs_clear: bool,
     /// How the picture was resolved, unless the film has changed since.
     resolved: Option<View>,
+    blue_first: bool,
     max_batch: u32,
     /// What the scene's loops allow.
     largest_batch: u32,
@@ -101,6 +102,7 @@ impl Renderer {
             filled_stride: 1,
             needs_clear: false,
             resolved: None,
+            blue_first: false,
             max_batch: MAX_BATCH,
             largest_batch: 1,
             device: Arc::clone(device),
@@ -110,6 +112,13 @@ impl Renderer {
     /// Cuts batches at other sample indices from the next pass on: a power of two.
     pub fn set_max_batch(&mut self, max_batch: u32) {
         self.max_batch = max_batch;
+    }
+
+    /// Resolves to b, g, r, a bytes from now on, for a window that wants them, or to r, g, b, a.
+    pub fn set_blue_first(&mut self, blue_first: bool) {
+        if self.blue_first != blue_first {
+            (self.blue_first, self.resolved) = (blue_first, None);
+        }
     }
 
     /// What to render from now on. The film starts anew where the estimator changed, or where it
@@ -178,7 +187,7 @@ impl Renderer {
         (self.scene, self.trace_bindings) = (None, None);
         let buffers = SceneBuffers::new(&self.device, &SceneData::new(scene))?;
         let trace = Trace::new(&self.device, self.shaders.trace, sampler_constant(self.sampler), &buffers)?;
-        self.tally.forget_rate();
+        self.tally.forget_scene();
         self.scene = Some(LoadedScene { scene: scene.clone(), buffers, trace });
         Ok(())
     }
@@ -207,7 +216,8 @@ impl Renderer {
         let mut left = budget;
 
         recording.barrier();
-        self.record_clear(recording);
+        // A preview shows no more of the tracing image than what it has filled.
+        self.record_clear(recording, !pace.preview);
         recording.clear_buffer(&self.counters);
         self.tally.start(recording, frame);
         let mut done = Work::default();
@@ -237,9 +247,9 @@ impl Renderer {
         self.samples == 0 && self.cursor.is_none_or(Cursor::is_first_lattice)
     }
 
-    fn record_clear(&mut self, recording: &mut Recording<'_>) {
+    fn record_clear(&mut self, recording: &mut Recording<'_>, batch: bool) {
         if let (true, Some(film)) = (self.needs_clear, &mut self.film) {
-            film.record_clear(recording);
+            film.record_clear(recording, batch);
             self.needs_clear = false;
         }
     }
@@ -305,7 +315,10 @@ impl Renderer {
         let estimator = &settings.estimator;
         let [width, height] = estimator.size.map(u64::from);
         match width * height {
-            pixels if preview && self.samples == 0 && pixels / 4 > left => Pass::interleaved(4),
+            // A cell's texel is the third of four each way.
+            pixels if preview && self.samples == 0 && pixels / 4 > left && width.min(height) > 2 => {
+                Pass::interleaved(4)
+            }
             pixels if preview && self.samples == 0 && pixels > left => Pass::interleaved(2),
             _ if preview && self.samples == 0 => Pass::interleaved(1),
             _ => {
@@ -331,7 +344,7 @@ impl Renderer {
 
     /// Records the resolve pass, if the picture is not up to date.
     pub fn record_resolve(&mut self, recording: &mut Recording<'_>) {
-        self.record_clear(recording);
+        self.record_clear(recording, true);
         let (Some(settings), Some(film)) = (&self.settings, &self.film) else {
             return;
         };
@@ -343,9 +356,17 @@ impl Renderer {
             _ => (&film.resolve, 1),
         };
         let extent = settings.estimator.size;
-        let push = ResolvePush { extent, preview_stride, exposure: settings.view.exposure_stops.exp2() };
+        let push = ResolvePush {
+            extent,
+            preview_stride,
+            exposure: settings.view.exposure_stops.exp2(),
+            blue_first: self.blue_first.into(),
+        };
         recording.barrier();
-        self.resolve.record(recording, bindings, &push);
+        // A cell of the preview at the picture's edge may have no texel of its own.
+        let has_holes =
+            preview_stride > 1 || reach(settings.estimator.jitter) > 0 || self.tally.saw_rejected_samples();
+        self.resolve.record(recording, bindings, &push, has_holes);
         recording.barrier();
         self.resolved = Some(settings.view);
     }
@@ -355,7 +376,12 @@ impl Renderer {
     /// # Errors
     /// What Vulkan says: a lost device.
     pub fn collect(&mut self, frame: usize) -> Result<()> {
-        self.tally.collect(frame)
+        let holes_were_known = self.tally.saw_rejected_samples();
+        self.tally.collect(frame)?;
+        if self.tally.saw_rejected_samples() != holes_were_known {
+            self.resolved = None;
+        }
+        Ok(())
     }
 
     /// The resolved picture, as [`Renderer::record_resolve`] left it.
