@@ -18,7 +18,7 @@ use x11rb::protocol::xtest::ConnectionExt;
 const SIZE: [u16; 2] = [1280, 720];
 const CONTROL: &str = "Focal plane distance";
 const EVENT_EVERY: Duration = Duration::from_millis(8);
-const LOOK_EVERY: Duration = Duration::from_micros(500);
+const LOOK_EVERY: Duration = Duration::from_millis(1);
 const SWEEPS: i32 = 4;
 /// Of the slider's width: where a sweep turns.
 const TURNS: [f64; 2] = [0.1, 0.9];

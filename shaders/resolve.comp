@@ -3,7 +3,8 @@
 
 // Pass 3: turns the film's means into a picture: exposure and sRGB encoding. A pixel without a
 // sample shows the nearest one that has some. While the first sample is being filled in, the film
-// bound here is the tracing image, which holds what there is of it.
+// bound here is the tracing image, and only the texels of a lattice in it are of this picture: each
+// stands for the cell of pixels around it, and an invocation resolves a cell.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -13,34 +14,41 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, rgba32f) readonly uniform image2D film_image;
 layout(set = 0, binding = 1, rgba8) writeonly uniform image2D picture_image;
 
+// 0: every texel is known to have a sample. Mesa's software device runs through what is not taken of a
+// branch as well, so the search is compiled in only where it may be needed.
+layout(constant_id = 0) const uint HAS_HOLES = 1u;
+
 layout(push_constant, std430) uniform ResolvePush {
     uvec2 extent;
     uint preview_stride; // of a lattice of pixels that is filled: (2, 2) + 4 i, or 2 i, or all
     float exposure; // linear factor
     float count_scale; // where not 0, counts are shown, and this many times the count is white
+    uint blue_first; // 1: for a window whose pixels start with blue, and which takes the bytes as they are
 } push;
 
 const int SEARCH_RADIUS = 4;
 
-vec4 film_at(ivec2 pixel) {
-    return imageLoad(film_image, pixel);
+// The texel that a cell shows, or an empty one where it lies outside.
+vec4 film_at(ivec2 cell) {
+    int site_in_cell = push.preview_stride == 4u ? 2 : 0;
+    ivec2 site = cell * int(push.preview_stride) + site_in_cell;
+    if (site.x < 0 || site.y < 0 || !inside(uvec2(site), push.extent)) {
+        return vec4(0.0);
+    }
+    return imageLoad(film_image, site);
 }
 
-// The nearest texel with a count, by Euclidean distance, within SEARCH_RADIUS; else an empty one.
-vec4 nearest_sampled(ivec2 pixel) {
+// The nearest texel with a count, by Euclidean distance, within SEARCH_RADIUS cells; else an empty one.
+vec4 nearest_sampled(ivec2 cell) {
     vec4 nearest = vec4(0.0);
     int nearest_distance = 2 * SEARCH_RADIUS * SEARCH_RADIUS + 1;
     for (int y = -SEARCH_RADIUS; y <= SEARCH_RADIUS; ++y) {
         for (int x = -SEARCH_RADIUS; x <= SEARCH_RADIUS; ++x) {
-            ivec2 candidate = pixel + ivec2(x, y);
             int distance = x * x + y * y;
-            if (distance < nearest_distance && candidate.x >= 0 && candidate.y >= 0
-                && inside(uvec2(candidate), push.extent)) {
-                vec4 texel = film_at(candidate);
-                if (texel.w > 0.0) {
-                    nearest = texel;
-                    nearest_distance = distance;
-                }
+            vec4 texel = film_at(cell + ivec2(x, y));
+            if (distance < nearest_distance && texel.w > 0.0) {
+                nearest = texel;
+                nearest_distance = distance;
             }
         }
     }
@@ -48,20 +56,22 @@ vec4 nearest_sampled(ivec2 pixel) {
 }
 
 void main() {
-    uvec2 pixel = gl_GlobalInvocationID.xy;
-    if (!inside(pixel, push.extent)) {
+    uvec2 cell = gl_GlobalInvocationID.xy;
+    uvec2 first = cell * push.preview_stride;
+    if (!inside(first, push.extent)) {
         return;
     }
-    vec4 film = film_at(ivec2(pixel));
-    if (film.w == 0.0 && push.preview_stride > 1u) {
-        // The site of the pixel's own cell is close enough, and one load instead of a search.
-        uint site_in_cell = push.preview_stride == 4u ? 2u : 0u;
-        uvec2 site = pixel / push.preview_stride * push.preview_stride + site_in_cell;
-        film = film_at(ivec2(min(site, push.extent - 1u)));
-    }
-    if (film.w == 0.0) {
-        film = nearest_sampled(ivec2(pixel));
+    vec4 film = film_at(ivec2(cell));
+    if (HAS_HOLES == 1u && film.w == 0.0) {
+        film = nearest_sampled(ivec2(cell));
     }
     vec3 shown = push.count_scale > 0.0 ? vec3(push.count_scale * film.w) : push.exposure * film.rgb;
-    imageStore(picture_image, ivec2(pixel), vec4(srgb_encode(shown), 1.0));
+    vec4 color = vec4(srgb_encode(shown), 1.0);
+    color = push.blue_first == 1u ? color.bgra : color;
+    uvec2 end = min(first + push.preview_stride, push.extent);
+    for (uint y = first.y; y < end.y; ++y) {
+        for (uint x = first.x; x < end.x; ++x) {
+            imageStore(picture_image, ivec2(x, y), color);
+        }
+    }
 }

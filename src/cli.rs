@@ -41,6 +41,8 @@ pub enum Command {
     Render(RenderArgs),
     /// Prove a device: hold what it renders against the same mathematics in f64, sample by sample
     Verify(VerifyArgs),
+    /// Measure a device: throughput, first picture, and how the error falls, for every sampler
+    Bench(BenchArgs),
     /// List the built-in scenes
     Scenes,
     /// List the Vulkan devices that --device can name
@@ -92,6 +94,28 @@ pub struct VerifyArgs {
     /// What to render.
     #[command(flatten)]
     pub settings: SettingsArgs,
+    /// On which device, and whether it is watched.
+    #[command(flatten)]
+    pub device: DeviceArgs,
+}
+
+/// `thinlens bench`.
+#[derive(Debug, Args)]
+pub struct BenchArgs {
+    /// Built-in scenes (see thinlens scenes), .toml or .obj files [default: every built-in one]
+    scenes: Vec<String>,
+    /// Picture size in pixels; the error is measured at 320x240 at most
+    #[arg(short, long, value_name = "WxH", value_parser = parse_size, default_value = "640x480")]
+    size: [u32; 2],
+    /// Antialiasing points per pixel of the pictures that throughput is measured with
+    #[arg(short = 'n', long, value_name = "N", allow_negative_numbers = true, default_value_t = DEFAULT_SAMPLES)]
+    samples: u32,
+    /// How often everything is measured, after a warm-up
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 5)]
+    pub runs: u32,
+    /// Give the figures as JSON, with spreads: to FILE beside the table, or in place of it
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = "-")]
+    pub json: Option<PathBuf>,
     /// On which device, and whether it is watched.
     #[command(flatten)]
     pub device: DeviceArgs,
@@ -189,6 +213,35 @@ impl DeviceArgs {
     /// As a plain value.
     pub fn choice(&self) -> DeviceChoice {
         DeviceChoice { device: self.device.clone(), validation: self.validation }
+    }
+}
+
+impl BenchArgs {
+    /// A picture of each scene that was named, or that is built in.
+    ///
+    /// # Errors
+    /// Of the scene, or [`crate::error::Error::OutOfRange`].
+    pub fn pictures(&self) -> Result<Vec<Settings>> {
+        let picture = |name: &str| {
+            let mut settings = Settings::of_scene(SceneRef::new(scene::load(name)?));
+            settings.estimator.size = self.size;
+            settings.samples = self.samples;
+            settings.check()?;
+            Ok(settings)
+        };
+        if self.scenes.is_empty() {
+            return BUILTINS.iter().map(|builtin| picture(builtin.name)).collect();
+        }
+        self.scenes.iter().map(|name| picture(name)).collect()
+    }
+
+    /// Every sampler, by its name.
+    pub fn samplers() -> Vec<(String, Sampler)> {
+        let name = |sampler: &SamplerArg| {
+            let value = sampler.to_possible_value()?;
+            Some((value.get_name().to_owned(), sampler.plain()))
+        };
+        SamplerArg::value_variants().iter().filter_map(name).collect()
     }
 }
 

@@ -2,9 +2,9 @@
 
 use clap::Parser;
 use std::process::ExitCode;
-use thinlens::cli::{Cli, Command, RenderArgs, ViewArgs};
+use thinlens::cli::{BenchArgs, Cli, Command, RenderArgs, ViewArgs};
 use thinlens::error::{Error, Result};
-use thinlens::{app, output, verify};
+use thinlens::{app, bench, output, verify};
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
@@ -26,6 +26,13 @@ fn run(command: Command) -> Result<()> {
         Command::Verify(args) => {
             output::say(&verify::run(&args.settings.of_proof()?, &args.device.choice())?)
         }
+        Command::Bench(args) => bench::run(&bench::Job {
+            pictures: args.pictures()?,
+            samplers: BenchArgs::samplers(),
+            runs: args.runs,
+            device: args.device.choice(),
+            json: args.json,
+        }),
         Command::Devices => output::list_devices(),
         Command::Scenes => output::list_scenes(),
     }

@@ -28,6 +28,9 @@ struct Case {
     film: Vec<[f32; 4]>,
     preview_stride: u32,
     exposure_stops: f32,
+    /// Whether the pass is told that some pixels have no sample.
+    has_holes: bool,
+    blue_first: bool,
 }
 
 /// What the resolve pass makes of it: r, g, b, a bytes.
@@ -54,10 +57,11 @@ fn resolve(gpu: &Gpu, case: &Case) -> Result<Vec<u8>> {
         preview_stride: case.preview_stride,
         exposure: case.exposure_stops.exp2(),
         count_scale: 0.0,
+        blue_first: case.blue_first.into(),
     };
     let read = Buffer::new(device, "read-back", picture.byte_len(), Residence::Host)?;
     let mut recording = commands.begin()?;
-    resolve.record(&mut recording, &bindings, &push);
+    resolve.record(&mut recording, &bindings, &push, case.has_holes);
     recording.barrier();
     recording.copy_image(&picture, &read);
     recording.submit()?;
@@ -89,6 +93,8 @@ fn cases() -> Vec<Case> {
         film,
         preview_stride,
         exposure_stops,
+        has_holes: !str::starts_with(name, "bands"),
+        blue_first: false,
     };
     let extent = [96, 50];
     let garbage = [f32::NAN, 1e9, -1e9, 0.0];
@@ -169,8 +175,22 @@ fn films_are_shown_as_the_pictures_that_were_looked_at() {
             "holes_shown_as_they_are",
             "nearest_is_the_last",
             "preview_of_the_neighbour",
+            "preview_cells_of_one_pixel",
+            "holes_never_looked_for",
         ],
     );
+}
+
+/// Catches a window with red for blue.
+#[test]
+fn a_window_that_wants_blue_first_gets_it() {
+    let gpu = Gpu::new();
+    let mut case = cases().remove(0);
+    let red_first = resolve(&gpu, &case).expect("a picture");
+    case.blue_first = true;
+    let blue_first = resolve(&gpu, &case).expect("a picture");
+    let turned = red_first.chunks(4).flat_map(|pixel| [pixel[2], pixel[1], pixel[0], pixel[3]]);
+    assert_eq!(blue_first, turned.collect::<Vec<_>>());
 }
 
 /// Catches a comparison that passes where there is nothing to compare with.

@@ -4,9 +4,10 @@
 use std::path::Path;
 
 /// A module and what it may use of the crate, besides `error`.
-const ARROWS: [(&str, &[&str]); 13] = [
+const ARROWS: [(&str, &[&str]); 14] = [
     ("cli", &["settings", "scene"]),
     ("app", &["renderer", "output", "settings", "scene", "vulkan"]),
+    ("bench", &["renderer", "output", "settings", "vulkan", "pending_file"]),
     ("output", &["renderer", "settings", "scene", "vulkan", "pending_file"]),
     ("renderer", &["passes", "gpu_types", "settings", "scene", "vulkan"]),
     ("passes", &["vulkan", "gpu_types"]),

@@ -37,7 +37,7 @@ fn twins() -> Vec<Twin> {
         twin!("TracePush", TracePush, [camera, lattice, seed, max_bounces, first_sample, sample_count]),
         twin!("AccumulatePush", AccumulatePush, [lattice, seed, first_sample, jitter, reach]),
         twin!("SelectPush", SelectPush, [lattice, threshold]),
-        twin!("ResolvePush", ResolvePush, [extent, preview_stride, exposure, count_scale]),
+        twin!("ResolvePush", ResolvePush, [extent, preview_stride, exposure, count_scale, blue_first]),
     ]
 }
 

@@ -65,6 +65,7 @@ impl Graphics {
             return Ok(None);
         };
         let extent = swapchain.extent();
+        self.renderer.set_blue_first(swapchain.blue_first());
         if self.overlay.is_none() {
             let (device, queue, allocator) = self.device.raw_parts();
             let options = Options { in_flight_frames: FRAMES_IN_FLIGHT, ..Options::default() };
@@ -95,8 +96,12 @@ impl Graphics {
         self.renderer.set(settings)
     }
 
-    /// Waits until the next frame's commands are free, and takes in what they measured.
-    pub(super) fn wait_for_frame(&mut self) -> Result<()> {
+    /// Waits until the next frame's commands are free, and takes in what they measured. With `all`, for
+    /// every frame under way: then none stands between what the hand does next and the screen.
+    pub(super) fn wait_for_frame(&mut self, all: bool) -> Result<()> {
+        for frame in self.frames.iter().filter(|_| all) {
+            frame.wait()?;
+        }
         self.frames[self.next_frame].wait()?;
         self.renderer.collect(self.next_frame)
     }

@@ -17,8 +17,9 @@ use winit::raw_window_handle::HasDisplayHandle;
 use winit::window::{Window, WindowId};
 
 const DEFAULT_SIZE: [u32; 2] = [1280, 720];
-/// Tracing time a frame while a control is held, so that it follows the hand.
-const DRAGGING_BUDGET: Duration = Duration::from_millis(10);
+/// Tracing time a frame while a control is held, so that it follows the hand: an event waits for the frame
+/// under way and then for its own.
+const DRAGGING_BUDGET: Duration = Duration::from_millis(4);
 /// Otherwise: most of a frame, and the window still answers.
 const RESTING_BUDGET: Duration = Duration::from_millis(30);
 /// imgui takes a frame to notice an event and one more to draw what it did.
@@ -42,6 +43,8 @@ struct Open {
     /// When the first event came that no frame has shown yet.
     unshown_since: Option<Instant>,
     frames_to_draw: u32,
+    /// Whether the last frame had a control held.
+    dragging: bool,
     shown: (u32, u32),
     /// Lens diameter, focal distance and jitter that were reported last.
     state: [f32; 3],
@@ -158,6 +161,7 @@ impl Open {
             last_frame: Instant::now(),
             unshown_since: None,
             frames_to_draw: FRAMES_AFTER_EVENT,
+            dragging: false,
             shown: (0, 0),
             state: [f32::NAN; 3],
             occluded: false,
@@ -205,7 +209,7 @@ impl Open {
         };
         log::trace!("frame");
         self.frames_to_draw = self.frames_to_draw.saturating_sub(1);
-        self.graphics.wait_for_frame()?;
+        self.graphics.wait_for_frame(self.dragging)?;
         let Some(image) = self.graphics.acquire()? else {
             self.frames_to_draw += 1;
             return Ok(());
@@ -221,7 +225,7 @@ impl Open {
         let ui = self.imgui.new_frame();
         let status = Status { progress: self.graphics.progress(), device: self.graphics.device_name() };
         self.panel.draw(ui, &status);
-        let dragging = ui.is_any_item_active();
+        self.dragging = ui.is_any_item_active();
         if ui.io().want_text_input {
             self.frames_to_draw = self.frames_to_draw.max(1); // the caret blinks
         }
@@ -235,7 +239,8 @@ impl Open {
         }
         self.panel.accept();
         let finished_before = self.graphics.finished();
-        let pace = Pace { budget: if dragging { DRAGGING_BUDGET } else { RESTING_BUDGET }, preview: true };
+        let pace =
+            Pace { budget: if self.dragging { DRAGGING_BUDGET } else { RESTING_BUDGET }, preview: true };
         self.graphics.draw(&image, &mut self.imgui, pace)?;
         if !finished_before && self.graphics.finished() {
             // What was just recorded is on the screen; the panel's figures come a frame later.

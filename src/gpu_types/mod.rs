@@ -169,6 +169,7 @@ pub struct ResolvePush {
     pub preview_stride: u32,
     pub exposure: f32,
     pub count_scale: f32,
+    pub blue_first: u32,
 }
 
 /// The specialization constants 0 and 1: `SAMPLER` of sampling.glsl, `IS_ADAPTIVE` of adaptive.glsl.

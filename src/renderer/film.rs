@@ -57,15 +57,17 @@ impl Film {
         })
     }
 
-    /// Empties the tracing image, so that a preview shows nothing of the last picture. The film
-    /// itself is taken for empty by the first accumulation.
-    pub(super) fn record_clear(&mut self, recording: &mut Recording<'_>) {
+    /// Empties the tracing image, so that nothing of the last picture is shown, unless it is only looked
+    /// at where it has been written since. The film itself is taken for empty by the first accumulation.
+    pub(super) fn record_clear(&mut self, recording: &mut Recording<'_>, batch: bool) {
         if !self.initialized {
             recording.clear(&self.film);
             recording.clear(&self.picture);
             self.adaptive.moments().iter().for_each(|moments| recording.clear(moments));
-            self.initialized = true;
         }
-        recording.clear(&self.batch);
+        if batch || !self.initialized {
+            recording.clear(&self.batch);
+        }
+        self.initialized = true;
     }
 }

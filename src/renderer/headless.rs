@@ -41,7 +41,8 @@ impl Renderer {
     /// # Errors
     /// [`crate::error::Error::Memory`], or what Vulkan says.
     pub fn read_film(&mut self) -> Result<Vec<[f32; 4]>> {
-        let bytes = self.read_image(|film| &film.film, Self::record_clear)?;
+        let bytes =
+            self.read_image(|film| &film.film, |renderer, recording| renderer.record_clear(recording, true))?;
         Ok(bytemuck::allocation::pod_collect_to_vec(&bytes))
     }
 

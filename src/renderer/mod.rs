@@ -18,7 +18,7 @@ use crate::scene::SceneRef;
 use crate::settings::{Overlay, Sampler, Settings, View};
 use crate::vulkan::{BindingSet, Buffer, Device, Image, Recording, Residence, SOFTWARE};
 use film::Film;
-use schedule::{Cursor, MAX_BATCH};
+use schedule::{Cursor, MAX_BATCH, reach};
 use std::sync::Arc;
 use std::time::Duration;
 use tally::Tally;
@@ -59,6 +59,7 @@ pub struct Renderer {
     needs_clear: bool,
     /// How the picture was resolved, unless the film has changed since.
     resolved: Option<View>,
+    blue_first: bool,
     max_batch: u32,
     /// What the scene's loops allow.
     largest_batch: u32,
@@ -108,6 +109,7 @@ impl Renderer {
             filled_stride: 1,
             needs_clear: false,
             resolved: None,
+            blue_first: false,
             max_batch: MAX_BATCH,
             largest_batch: 1,
             device: Arc::clone(device),
@@ -117,6 +119,13 @@ impl Renderer {
     /// Cuts batches at other sample indices from the next pass on: a power of two.
     pub fn set_max_batch(&mut self, max_batch: u32) {
         self.max_batch = max_batch;
+    }
+
+    /// Resolves to b, g, r, a bytes from now on, for a window that wants them, or to r, g, b, a.
+    pub fn set_blue_first(&mut self, blue_first: bool) {
+        if self.blue_first != blue_first {
+            (self.blue_first, self.resolved) = (blue_first, None);
+        }
     }
 
     /// What to render from now on. The film starts anew where the estimator changed, or where it
@@ -190,7 +199,7 @@ impl Renderer {
         (self.scene, self.trace_bindings) = (None, None);
         let buffers = SceneBuffers::new(&self.device, &SceneData::new(scene))?;
         let trace = Trace::new(&self.device, self.shaders.trace, self.constants, &buffers, &self.tile)?;
-        self.tally.forget_rate();
+        self.tally.forget_scene();
         self.scene = Some(LoadedScene { scene: scene.clone(), buffers, trace });
         Ok(())
     }
@@ -208,7 +217,7 @@ impl Renderer {
 
     /// Records the resolve pass, if the picture is not up to date.
     pub fn record_resolve(&mut self, recording: &mut Recording<'_>) {
-        self.record_clear(recording);
+        self.record_clear(recording, true);
         let (Some(settings), Some(film)) = (&self.settings, &self.film) else {
             return;
         };
@@ -225,9 +234,13 @@ impl Renderer {
             Some(Overlay::Count) => (settings.samples as f32).recip(),
         };
         let exposure = settings.view.exposure_stops.exp2();
-        let push = ResolvePush { extent, preview_stride, exposure, count_scale };
+        let blue_first = self.blue_first.into();
+        let push = ResolvePush { extent, preview_stride, exposure, count_scale, blue_first };
         recording.barrier();
-        self.resolve.record(recording, bindings, &push);
+        // A cell of the preview at the picture's edge may have no texel of its own.
+        let has_holes =
+            preview_stride > 1 || reach(settings.estimator.jitter) > 0 || self.tally.saw_rejected_samples();
+        self.resolve.record(recording, bindings, &push, has_holes);
         recording.barrier();
         self.resolved = Some(settings.view);
     }
@@ -237,7 +250,12 @@ impl Renderer {
     /// # Errors
     /// What Vulkan says: a lost device.
     pub fn collect(&mut self, frame: usize) -> Result<()> {
-        self.tally.collect(frame)
+        let holes_were_known = self.tally.saw_rejected_samples();
+        self.tally.collect(frame)?;
+        if self.tally.saw_rejected_samples() != holes_were_known {
+            self.resolved = None;
+        }
+        Ok(())
     }
 
     /// The resolved picture, as [`Renderer::record_resolve`] left it.

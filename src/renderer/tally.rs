@@ -43,6 +43,8 @@ pub(super) struct Tally {
     nanoseconds_per_unit: Option<f64>,
     /// Told apart by number, so that frames in flight do not count for a later picture.
     picture: u64,
+    /// Whether a sample of this scene was rejected, in any picture.
+    saw_rejected_samples: bool,
 }
 
 struct Frame {
@@ -87,6 +89,7 @@ impl Tally {
             sum: Progress::default(),
             nanoseconds_per_unit: None,
             picture: 0,
+            saw_rejected_samples: false,
         })
     }
 
@@ -96,8 +99,9 @@ impl Tally {
     }
 
     /// Another scene: what was measured says nothing of it.
-    pub(super) fn forget_rate(&mut self) {
+    pub(super) fn forget_scene(&mut self) {
         self.nanoseconds_per_unit = None;
+        self.saw_rejected_samples = false;
     }
 
     /// How much the device can do in this time, in samples traced, by the last measurement.
@@ -143,8 +147,9 @@ impl Tally {
             let measured = elapsed.as_nanos() as f64 / work.cost as f64;
             self.nanoseconds_per_unit = Some(measured.max(least));
         }
+        let counters = Counters::from_bytes(frame.counters.bytes());
+        self.saw_rejected_samples |= counters.rejected_samples > 0;
         if picture == self.picture {
-            let counters = Counters::from_bytes(frame.counters.bytes());
             self.sum.traced += work.samples + u64::from(counters.listed_samples);
             self.sum.rays += u64::from(counters.rays);
             self.sum.rejected_samples += u64::from(counters.rejected_samples);
@@ -155,6 +160,11 @@ impl Tally {
             }
         }
         Ok(())
+    }
+
+    /// Whether pixels can have fewer samples than were traced for them.
+    pub(super) fn saw_rejected_samples(&self) -> bool {
+        self.saw_rejected_samples
     }
 
     pub(super) fn progress(&self, samples: u32) -> Progress {

@@ -28,7 +28,8 @@ impl Renderer {
         let mut left = budget;
 
         recording.barrier();
-        self.record_clear(recording);
+        // A preview shows no more of the tracing image than what it has filled.
+        self.record_clear(recording, !pace.preview);
         recording.clear_buffer(&self.counters, size_of::<Counters>() as u64);
         self.tally.start(recording, frame);
         let mut done = Work::default();
@@ -65,9 +66,9 @@ impl Renderer {
         self.samples == 0 && self.cursor.is_none_or(Cursor::is_first_lattice)
     }
 
-    pub(super) fn record_clear(&mut self, recording: &mut Recording<'_>) {
+    pub(super) fn record_clear(&mut self, recording: &mut Recording<'_>, batch: bool) {
         if let (true, Some(film)) = (self.needs_clear, &mut self.film) {
-            film.record_clear(recording);
+            film.record_clear(recording, batch);
             self.needs_clear = false;
         }
     }
@@ -153,7 +154,10 @@ impl Renderer {
         let estimator = &settings.estimator;
         let [width, height] = estimator.size.map(u64::from);
         match width * height {
-            pixels if preview && self.samples == 0 && pixels / 4 > left => Pass::interleaved(4),
+            // A cell's texel is the third of four each way.
+            pixels if preview && self.samples == 0 && pixels / 4 > left && width.min(height) > 2 => {
+                Pass::interleaved(4)
+            }
             pixels if preview && self.samples == 0 && pixels > left => Pass::interleaved(2),
             _ if preview && self.samples == 0 => Pass::interleaved(1),
             _ => {

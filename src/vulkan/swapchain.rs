@@ -209,6 +209,11 @@ impl Swapchain {
         }
     }
 
+    /// Whether a pixel's bytes start with blue: pictures are copied as they are.
+    pub fn blue_first(&self) -> bool {
+        self.format == vk::Format::B8G8R8A8_UNORM
+    }
+
     /// Copies `picture` to the acquired image and opens it for drawing on top. The
     /// sizes are the same.
     pub fn begin_drawing(&self, recording: &mut Recording<'_>, image: &AcquiredImage, picture: &Image) {
@@ -224,24 +229,16 @@ impl Swapchain {
         let (dst, color) = (vk::ImageLayout::TRANSFER_DST_OPTIMAL, vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL);
         transition(recording, raw, vk::ImageLayout::UNDEFINED, undefined, dst, transfer);
         let size = [0, 1].map(|axis| self.extent[axis].min(picture.extent()[axis]));
-        let corner = |axis: usize| i32::try_from(size[axis]).unwrap_or(i32::MAX);
-        let area = [vk::Offset3D::default(), vk::Offset3D { x: corner(0), y: corner(1), z: 1 }];
-        let blit = [vk::ImageBlit::default()
+        let [width, height] = size;
+        let copy = [vk::ImageCopy::default()
             .src_subresource(LAYER)
-            .src_offsets(area)
             .dst_subresource(LAYER)
-            .dst_offsets(area)];
-        // SAFETY: both images are in these layouts and hold the area.
+            .extent(vk::Extent3D { width, height, depth: 1 })];
+        // Bytes as they are: a blit would convert them, which takes a software device as long as tracing.
+        // SAFETY: both images are in these layouts, hold the area, and have four bytes a pixel.
         unsafe {
-            recording.device().raw.cmd_blit_image(
-                buffer,
-                picture.raw,
-                vk::ImageLayout::GENERAL,
-                raw,
-                dst,
-                &blit,
-                vk::Filter::NEAREST,
-            );
+            let general = vk::ImageLayout::GENERAL;
+            recording.device().raw.cmd_copy_image(buffer, picture.raw, general, raw, dst, &copy);
         }
         transition(recording, raw, dst, transfer, color, attachment);
         let target = [vk::RenderingAttachmentInfo::default()

@@ -1,0 +1,92 @@
+//! Measures a device: how many samples and rays a second, how soon there is a picture, how long a
+//! submission keeps the device busy, and how the error falls with samples and with seconds.
+//!
+//! Everything is measured several times, after a warm-up that is thrown away, and given as a median with the
+//! quartiles and extremes around it. Rates are of wall-clock time, and beside it of the device's own.
+
+mod convergence;
+mod measure;
+mod report;
+mod statistics;
+
+pub use convergence::{ERROR_SAMPLES, rmse};
+pub use report::{Change, Convergence, Report, SceneReport, Submissions};
+pub use statistics::Spread;
+
+use crate::error::{Error, Result};
+use crate::output::say;
+use crate::pending_file::PendingFile;
+use crate::renderer::Renderer;
+use crate::settings::{DeviceChoice, Sampler, Settings};
+use crate::vulkan::{Device, Instance};
+use std::path::{Path, PathBuf};
+
+/// How often anything is measured at most.
+pub const MAX_RUNS: u32 = 1000;
+
+/// What to measure.
+#[derive(Debug, Clone)]
+pub struct Job {
+    /// A picture of each scene; throughput is measured at its size and number of samples.
+    pub pictures: Vec<Settings>,
+    /// The samplers to compare, by their names.
+    pub samplers: Vec<(String, Sampler)>,
+    /// How often everything is measured.
+    pub runs: u32,
+    /// On which device.
+    pub device: DeviceChoice,
+    /// The file that the figures go to as JSON, if any; `-` for standard output, in place of the table.
+    pub json: Option<PathBuf>,
+}
+
+/// A way to render that is compared with the others: what it changes of the settings.
+pub(crate) struct Variant {
+    name: String,
+    change: Box<dyn Fn(&mut Settings)>,
+}
+
+/// The ways to compare.
+fn variants(samplers: &[(String, Sampler)]) -> Vec<Variant> {
+    let of_sampler = |(name, sampler): &(String, Sampler)| {
+        let sampler = *sampler;
+        let change = move |settings: &mut Settings| settings.estimator.sampler = sampler;
+        Variant { name: name.clone(), change: Box::new(change) }
+    };
+    samplers.iter().map(of_sampler).collect()
+}
+
+/// Measures, and prints or writes the figures.
+///
+/// # Errors
+/// Whatever keeps it from it; [`Error::Validation`] if the layer had something to say.
+pub fn run(job: &Job) -> Result<()> {
+    if !(1..=MAX_RUNS).contains(&job.runs) {
+        return Err(Error::OutOfRange(format!("runs is {}, but must be from 1 to {MAX_RUNS}", job.runs)));
+    }
+    let table = job.json.as_deref() != Some(Path::new("-"));
+    let file = job.json.as_deref().filter(|_| table).map(PendingFile::create).transpose()?;
+    let instance = Instance::new(job.device.validation, None)?;
+    let device = Device::open(&instance, job.device.device.as_deref(), None)?;
+    device.keep_pipelines();
+    let mut report = Report::new(device.info(), job.runs);
+    if table {
+        say(&report.heading())?;
+    }
+    let variants = variants(&job.samplers);
+    let mut renderer = Renderer::new(&device)?;
+    for picture in &job.pictures {
+        eprintln!("measuring {} ...", picture.estimator.scene.name);
+        let scene = measure::scene(&mut renderer, picture, &variants, job)?;
+        if table {
+            say(&scene.table())?;
+        }
+        report.scenes.push(scene);
+    }
+    match file {
+        Some(file) => file.write(report.json().as_bytes())?,
+        None if !table => say(report.json().trim_end())?,
+        None => {}
+    }
+    drop((renderer, device));
+    instance.check_validation()
+}
