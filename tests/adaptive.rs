@@ -212,7 +212,7 @@ fn the_same_error_for_fewer_samples() {
     };
     settings.samples = 256;
     let uniform = rmse(&film(&gpu, &settings));
-    (settings.samples, settings.estimator.noise_threshold) = (1024, 0.05);
+    (settings.samples, settings.estimator.noise_threshold) = (1024, 0.049);
     let adaptive = film(&gpu, &settings);
     let mean = adaptive.iter().map(|texel| f64::from(texel[3])).sum::<f64>() / adaptive.len() as f64;
     let error = rmse(&adaptive);
