@@ -6,6 +6,7 @@ use common::{Gpu, bits, film, render, settings_of, small};
 use std::time::Duration;
 use thinlens::renderer::{Pace, Renderer};
 use thinlens::settings::{Sampler, Settings};
+use thinlens::vulkan::Commands;
 
 /// Catches a focal distance that leaks into the pinhole: with no lens there is nothing to focus.
 #[test]
@@ -227,4 +228,53 @@ fn what_takes_too_long_is_rejected() {
     let rejected = renderer.progress().rejected_samples;
     let software = gpu.device().info().kind == thinlens::vulkan::SOFTWARE;
     assert_eq!((counted, rejected), if software { (0.0, 256) } else { (256.0, 0) });
+}
+
+/// Catches a preview that shows what the images held before: it fills only a lattice, and nothing is
+/// emptied for it. After each submission the picture is that of a renderer that rendered nothing else.
+#[test]
+fn a_preview_shows_nothing_of_the_last_picture() {
+    let gpu = Gpu::new();
+    let mut settings = small("version-4");
+    // Not a multiple of four, so that cells at the edges are cut.
+    settings.estimator.size = [63, 47];
+    let pace = Pace { budget: Duration::ZERO, preview: true };
+    let pictures = |renderer: &mut Renderer| -> Vec<Vec<u8>> {
+        renderer.set(&settings).expect("valid settings");
+        let mut commands = Commands::new(gpu.device()).expect("commands");
+        let mut after_submission = |_| {
+            let mut recording = commands.begin().expect("a recording");
+            renderer.record(&mut recording, 0, pace);
+            recording.submit().expect("a submission");
+            commands.wait().expect("the device");
+            renderer.collect(0).expect("figures");
+            renderer.read_picture().expect("a picture")
+        };
+        (0..30).map(&mut after_submission).collect()
+    };
+    let mut used = Renderer::new(gpu.device()).expect("a renderer");
+    let mut other = settings.clone();
+    other.estimator.scene = small("suffern-boxes").estimator.scene;
+    used.set(&other).expect("valid settings");
+    used.render(|_| ()).expect("a rendering");
+    let fresh = pictures(&mut Renderer::new(gpu.device()).expect("a renderer"));
+    assert!(fresh[0] != fresh[29], "it is a preview");
+    assert!(fresh[0].chunks(4).all(|pixel| pixel != [0; 4]), "every pixel is filled");
+    assert!(pictures(&mut used) == fresh);
+}
+
+/// Catches pixels that show nothing because their samples were rejected: the pass that looks for a
+/// neighbour is only used where a renderer knows that it must.
+#[test]
+fn pixels_whose_samples_were_rejected_show_a_neighbour() {
+    let gpu = Gpu::new();
+    let settings = settings_of(common::scenes::BURNING, [32, 24], 1);
+    let mut renderer = Renderer::new(gpu.device()).expect("a renderer");
+    let film = common::render(&mut renderer, &settings).expect("a film");
+    let picture = renderer.read_picture().expect("a picture");
+    let holes: Vec<_> = film.iter().zip(picture.chunks(4)).filter(|(texel, _)| texel[3] == 0.0).collect();
+    assert!(!holes.is_empty() && holes.len() < film.len(), "{} holes", holes.len());
+    let near_others = holes.iter().filter(|(_, pixel)| pixel[..3] != [0; 3]).count();
+    println!("{} holes, {near_others} of them beside a pixel that is not black", holes.len());
+    assert!(near_others > 0);
 }
