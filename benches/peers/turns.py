@@ -65,7 +65,11 @@ def run(args, name, scene, samples, seed, folder):
     if status != 0:
         last = (errors.strip().splitlines() or ["it said nothing"])[-1]
         raise Failed(f"{last} (exit status {status})")
-    return json.loads(out.splitlines()[-1])
+    # A renderer may write to standard output too, before the answer and after it.
+    start = out.rfind('{"version"')
+    if start < 0:
+        raise Failed("it ended without figures")
+    return json.JSONDecoder().raw_decode(out, start)[0]
 
 
 def _output(command, timeout):
