@@ -73,8 +73,8 @@ pub enum Sampler {
     /// The Sobol sequence, Owen-scrambled, four dimensions for film and lens together: a pixel's samples
     /// keep apart from each other on both. B. Burley, JCGT 9(4), 2020.
     Sobol,
-    /// Likewise, and the errors of neighbouring pixels oppose each other, which the eye averages: at 1 to
-    /// 16 samples and on. Arranged as E. Heitz, L. Belcour, V. Ostromoukhov, D. Coeurjolly and J.-C. Iehl
+    /// Likewise, and the errors of neighbouring pixels oppose each other, which the eye averages: most with
+    /// the first samples, a little still with 16. Arranged as E. Heitz, L. Belcour, V. Ostromoukhov, D. Coeurjolly and J.-C. Iehl
     /// do, "A Low-Discrepancy Sampler that Distributes Monte Carlo Errors as a Blue Noise in Screen
     /// Space", SIGGRAPH Talks 2019, but by masks on one sequence: I. Georgiev and M. Fajardo, "Blue-noise
     /// Dithered Sampling", SIGGRAPH Talks 2016.
