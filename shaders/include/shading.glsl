@@ -70,8 +70,12 @@ vec3 shade(Material material, Ray ray, SurfacePoint at, inout uint rays, inout b
     if (material.kd == 0.0 && material.ks == 0.0) {
         return sum;
     }
-    for (uint i = 0u; i < SHADOW_LIGHT_COUNT; ++i) {
-        sum += reflected_light(material, color, get_light(i), true, ray, at, rays, given_up);
+    uint lights = SHADOW_LIGHT_COUNT;
+    if (lights > 0u) {
+        uint i = 0u;
+        do {
+            sum += reflected_light(material, color, get_light(i), true, ray, at, rays, given_up);
+        } while (++i < lights);
     }
     for (uint i = SHADOW_LIGHT_COUNT; i < LIGHT_COUNT; ++i) {
         sum += reflected_light(material, color, get_light(i), false, ray, at, rays, given_up);

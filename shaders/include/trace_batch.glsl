@@ -33,7 +33,8 @@ vec4 trace_batch(TracePush push, uvec2 pixel, out float moment) {
     uint rays = 0u;
     uint rejected = 0u;
     uvec4 keys = sample_keys(push.seed, pixel, BLOCK_FILM_AND_LENS);
-    for (uint i = 0u; i < push.sample_count; ++i) {
+    uint i = 0u;
+    do {
         vec4 xi = sample_values(keys, push.first_sample + i);
         vec2 offset = film_offset(xi.xy, push.camera.jitter);
         vec2 q = view_plane_point(push.camera, push.lattice.extent, pixel, offset);
@@ -48,7 +49,7 @@ vec4 trace_batch(TracePush push, uvec2 pixel, out float moment) {
         } else {
             ++rejected;
         }
-    }
+    } while (++i < push.sample_count);
     atomicAdd(counters.rays, rays);
     if (rejected > 0u) {
         atomicAdd(counters.rejected_samples, rejected);
