@@ -28,7 +28,10 @@ bool find_pixel(Lattice lattice, out uvec2 pixel) {
         pixel = uvec2(column_and_row & 0xffffu, column_and_row >> 16u);
         return true;
     }
-    pixel = lattice_pixel(lattice, gl_GlobalInvocationID.xy);
+    // Eight invocations that follow one another cover 4 by 2 pixels and not 8 by 1: their rays stay closer.
+    uvec2 local = gl_LocalInvocationID.xy;
+    uvec2 place = uvec2(local.x & 3u | (local.y & 1u) << 2u, local.x >> 2u | local.y & 6u);
+    pixel = lattice_pixel(lattice, 8u * gl_WorkGroupID.xy + place);
     return inside(pixel, lattice.extent);
 }
 

@@ -1,9 +1,9 @@
-// The nearest shape along a ray, by a tree of boxes with eight children a node: H. Ylitie et al.,
-// "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", HPG 2017.
+// The nearest shape along a ray, by a tree of boxes with four children a node, compressed after H. Ylitie
+// et al., "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", HPG 2017.
 //
-// The children of a node are visited in the order of the ray's octant. Those still to be visited are a
-// group: the index of the first child, and bits: the visit's order in the upper eight, and which of the
-// children are inner nodes in the lower eight. The shapes of leaves are a group too, with a bit each.
+// Nodes and shapes are records of one size in one buffer, and the children of a node follow one another. So
+// a step of the search fetches one record, whichever it is: where branches are only masked, fetches would
+// be made for both.
 
 #ifndef BVH_GLSL
 #define BVH_GLSL
@@ -11,7 +11,7 @@
 // The inverses of a shape's distance and of a box's are rounded each in its own way.
 const float BOX_SLACK = 1.0 + 1e-6;
 
-// Nodes on the longest way from the root to a leaf; at each, one group can be left behind.
+// Nodes on the longest way from the root to a leaf; at each, some children can be left behind.
 layout(constant_id = 10) const uint TREE_DEPTH = 0u; // 0: no tree
 layout(constant_id = 11) const uint TREE_KINDS = 0u; // the kinds of shapes in it, a bit each
 // A ray that needs more steps is given up: Mesa's software device would end it silently later on.
@@ -22,10 +22,18 @@ const uint KIND_BOX = 1u;
 const uint KIND_TRIANGLE = 2u;
 const uint KIND_SMOOTH = 3u; // a bit of TREE_KINDS only: some triangles have normals
 
-layout(set = 0, binding = 10) uniform usamplerBuffer tree_nodes; // five texels each
-// Three texels each: position and material, then edges or radius or corner, and the kind.
-layout(set = 0, binding = 11) uniform usamplerBuffer tree_shapes;
-layout(set = 0, binding = 12) uniform usamplerBuffer tree_normals; // three texels each
+layout(set = 0, binding = 10) uniform usamplerBuffer tree_records; // three texels each: TreeNode or TreeShape
+layout(set = 0, binding = 11) uniform usamplerBuffer tree_normals; // three texels each
+
+// Boxes around the children, whose planes stand on a grid of the node's own.
+struct TreeNode {
+    vec3 origin;
+    uint about; // bytes: the exponents of the grid's steps, and one that is not zero
+    uvec2 planes_x; // a byte for each child: the lower ones, then the upper
+    uvec2 planes_y;
+    uvec2 planes_z;
+    uint first; // the first child's record
+};
 
 struct TreeShape {
     vec3 position; // centre, lower corner, or first vertex
@@ -33,6 +41,7 @@ struct TreeShape {
     vec3 a; // radius in x, upper corner, or first edge
     uint kind;
     vec3 b; // second edge
+    uint index; // of its normals
 };
 
 bool has_tree() {
@@ -44,11 +53,27 @@ bool in_tree(uint kind) {
     return (TREE_KINDS >> kind & 1u) != 0u;
 }
 
-TreeShape tree_shape(uint index) {
-    uvec4 first = texelFetch(tree_shapes, int(3u * index));
-    uvec4 second = texelFetch(tree_shapes, int(3u * index + 1u));
-    uvec4 third = texelFetch(tree_shapes, int(3u * index + 2u));
-    return TreeShape(uintBitsToFloat(first.xyz), first.w, uintBitsToFloat(second.xyz), second.w, uintBitsToFloat(third.xyz));
+void fetch_record(uint index, out uvec4 record[3]) {
+    int at = int(3u * index);
+    record[0] = texelFetch(tree_records, at);
+    record[1] = texelFetch(tree_records, at + 1);
+    record[2] = texelFetch(tree_records, at + 2);
+}
+
+// A shape has the index of its material there, which is smaller.
+bool is_node(uvec4 record[3]) {
+    return record[0].w >= 1u << 24u;
+}
+
+TreeNode to_node(uvec4 record[3]) {
+    return TreeNode(uintBitsToFloat(record[0].xyz), record[0].w, record[1].xy, record[1].zw, record[2].xy, record[2].z);
+}
+
+TreeShape to_shape(uvec4 record[3]) {
+    return TreeShape(
+        uintBitsToFloat(record[0].xyz), record[0].w, uintBitsToFloat(record[1].xyz), record[1].w,
+        uintBitsToFloat(record[2].xyz), record[2].w
+    );
 }
 
 float intersect_tree_shape(Ray ray, vec3 inverse_direction, TreeShape shape) {
@@ -69,125 +94,118 @@ float intersect_tree_shape(Ray ray, vec3 inverse_direction, TreeShape shape) {
     return distance;
 }
 
-// The bits of a node's children that the ray meets before limit: an inner child at its place in the
-// order of visit, a leaf's shapes at theirs.
-uint meet_children(Ray ray, vec3 inverse_direction, uint octant, float limit, uint node, out uvec4 header, out uvec2 bases) {
-    int at = int(5u * node);
-    header = texelFetch(tree_nodes, at);
-    uvec4 about = texelFetch(tree_nodes, at + 1);
-    uvec4 x = texelFetch(tree_nodes, at + 2); // lower planes of eight children, then upper
-    uvec4 y = texelFetch(tree_nodes, at + 3);
-    uvec4 z = texelFetch(tree_nodes, at + 4);
-    bases = about.xy;
+const uint FAR_KEY = 0xffffffffu;
 
-    // The planes stand on a grid of the node's own.
-    vec3 step = uintBitsToFloat(uvec3(header.w << 23u, header.w << 15u, header.w << 7u) & 0x7f800000u) * inverse_direction;
-    vec3 origin = (uintBitsToFloat(header.xyz) - ray.origin) * inverse_direction;
+// A child's distance, which is not negative, and its number, in one unsigned number to sort by.
+uint child_key(vec3 enter, vec3 leave, float limit, uint child) {
+    float near = larger(larger(enter.x, enter.y), larger(enter.z, 0.0));
+    float far = smaller(smaller(leave.x, leave.y), smaller(leave.z, limit));
+    return near <= far * BOX_SLACK ? floatBitsToUint(near) & ~3u | child : FAR_KEY;
+}
+
+#define SORT(a, b) { uint smaller_key = min(a, b); b = max(a, b); a = smaller_key; }
+
+// The children of a node whose boxes the ray meets before limit, two bits each, the nearest in the lowest, and
+// above them all a one.
+const uint NO_CHILDREN = 1u;
+
+uint meet_children(Ray ray, vec3 inverse_direction, float limit, TreeNode node) {
+    vec3 step = uintBitsToFloat(uvec3(node.about << 23u, node.about << 15u, node.about << 7u) & 0x7f800000u) * inverse_direction;
+    vec3 origin = (node.origin - ray.origin) * inverse_direction;
     bvec3 backwards = lessThan(inverse_direction, vec3(0.0));
-    uvec2 near_x = backwards.x ? x.zw : x.xy;
-    uvec2 far_x = backwards.x ? x.xy : x.zw;
-    uvec2 near_y = backwards.y ? y.zw : y.xy;
-    uvec2 far_y = backwards.y ? y.xy : y.zw;
-    uvec2 near_z = backwards.z ? z.zw : z.xy;
-    uvec2 far_z = backwards.z ? z.xy : z.zw;
-
-    uint met = 0u;
-    [[unroll]] for (uint half_of_children = 0u; half_of_children < 2u; ++half_of_children) {
-        // Bytes: of an inner child 001 and 24 + slot; of a leaf a bit for each shape, and the first's place.
-        uint children = about[2u + half_of_children];
-        uint inner = children & children << 1u & 0x10101010u;
-        uint places = (children ^ octant * 0x01010101u & (inner >> 4u) * 0xffu) & 0x1f1f1f1fu;
-        uint bits = children >> 5u & 0x07070707u;
-        [[unroll]] for (uint child = 0u; child < 4u; ++child) {
-            uint by = 8u * child;
-            vec3 near_planes = vec3(near_x[half_of_children] >> by & 0xffu, near_y[half_of_children] >> by & 0xffu, near_z[half_of_children] >> by & 0xffu);
-            vec3 far_planes = vec3(far_x[half_of_children] >> by & 0xffu, far_y[half_of_children] >> by & 0xffu, far_z[half_of_children] >> by & 0xffu);
-            vec3 enter = near_planes * step + origin;
-            vec3 leave = far_planes * step + origin;
-            float near = larger(larger(enter.x, enter.y), larger(enter.z, 0.0));
-            float far = smaller(smaller(leave.x, leave.y), smaller(leave.z, limit));
-            met |= near <= far * BOX_SLACK ? (bits >> by & 0xffu) << (places >> by & 0xffu) : 0u;
-        }
+    uvec2 x = backwards.x ? node.planes_x.yx : node.planes_x;
+    uvec2 y = backwards.y ? node.planes_y.yx : node.planes_y;
+    uvec2 z = backwards.z ? node.planes_z.yx : node.planes_z;
+    uint keys[4];
+    [[unroll]] for (uint child = 0u; child < 4u; ++child) {
+        uint by = 8u * child;
+        vec3 enter = vec3(x.x >> by & 0xffu, y.x >> by & 0xffu, z.x >> by & 0xffu) * step + origin;
+        vec3 leave = vec3(x.y >> by & 0xffu, y.y >> by & 0xffu, z.y >> by & 0xffu) * step + origin;
+        keys[child] = child_key(enter, leave, limit, child);
     }
-    return met;
+    SORT(keys[0], keys[1])
+    SORT(keys[2], keys[3])
+    SORT(keys[0], keys[2])
+    SORT(keys[1], keys[3])
+    SORT(keys[1], keys[2])
+    uint met = NO_CHILDREN;
+    met = keys[3] != FAR_KEY ? met << 2u | keys[3] & 3u : met;
+    met = keys[2] != FAR_KEY ? met << 2u | keys[2] & 3u : met;
+    met = keys[1] != FAR_KEY ? met << 2u | keys[1] & 3u : met;
+    return keys[0] != FAR_KEY ? met << 2u | keys[0] & 3u : met;
 }
 
-// Groups left behind, the last first. A stack that shifts needs no index that differs from invocation to
-// invocation, and is spelled out, for Mesa's software device unrolls no loop inside another one.
-uvec2 stack[TREE_DEPTH + 1u];
-const uint SPELLED_OUT = 12u;
+// What was left behind of nodes' children, the last first: the first child's record, and in seven bits those
+// still to be visited, as meet_children() gives them. A stack that shifts needs no index that differs from
+// invocation to invocation, and is spelled out, for Mesa's software device unrolls no loop inside another one.
+uint stack[TREE_DEPTH + 1u];
+const uint SPELLED_OUT = 20u;
+const uint NOTHING_LEFT = NO_CHILDREN; // children of no record
 
-#define SHIFT_DOWN(i) if (depth >= i) { stack[i] = stack[i - 1u]; }
-#define SHIFT_UP(i) if (depth >= i) { stack[i - 1u] = stack[i]; }
-
-void push_group(uvec2 group) {
-    uint depth = TREE_DEPTH;
-    for (uint i = depth; i > SPELLED_OUT; --i) {
-        stack[i] = stack[i - 1u];
+#define SHIFT(i) \
+    if (depth >= i) { \
+        uint here = stack[i - 1u]; \
+        stack[i - 1u] = pushes ? above : pops ? stack[i] : here; \
+        above = here; \
     }
-    SHIFT_DOWN(12u) SHIFT_DOWN(11u) SHIFT_DOWN(10u) SHIFT_DOWN(9u) SHIFT_DOWN(8u) SHIFT_DOWN(7u)
-    SHIFT_DOWN(6u) SHIFT_DOWN(5u) SHIFT_DOWN(4u) SHIFT_DOWN(3u) SHIFT_DOWN(2u) SHIFT_DOWN(1u)
-    stack[0] = group;
-}
 
-uvec2 pop_group() {
+// Pushes or pops one entry, or neither; gives what was on top.
+uint shift_stack(bool pushes, bool pops, uint above) {
     uint depth = TREE_DEPTH;
-    uvec2 group = stack[0];
-    SHIFT_UP(1u) SHIFT_UP(2u) SHIFT_UP(3u) SHIFT_UP(4u) SHIFT_UP(5u) SHIFT_UP(6u)
-    SHIFT_UP(7u) SHIFT_UP(8u) SHIFT_UP(9u) SHIFT_UP(10u) SHIFT_UP(11u) SHIFT_UP(12u)
+    uint top = stack[0];
+    SHIFT(1u) SHIFT(2u) SHIFT(3u) SHIFT(4u) SHIFT(5u) SHIFT(6u) SHIFT(7u) SHIFT(8u) SHIFT(9u) SHIFT(10u)
+    SHIFT(11u) SHIFT(12u) SHIFT(13u) SHIFT(14u) SHIFT(15u) SHIFT(16u) SHIFT(17u) SHIFT(18u) SHIFT(19u) SHIFT(20u)
     for (uint i = SPELLED_OUT + 1u; i <= depth; ++i) {
-        stack[i - 1u] = stack[i];
+        uint here = stack[i - 1u];
+        stack[i - 1u] = pushes ? above : pops ? stack[i] : here;
+        above = here;
     }
-    return group;
+    return top;
 }
 
-// The distance to the nearest shape nearer than limit, and its index; MISS if there is none. With any_will_do the
-// first one found ends the search. given_up: the search took too long.
+// The distance to the nearest shape nearer than limit, and its record; MISS if there is none. With
+// any_will_do the first one found ends the search. given_up: the search took too long.
 float search_tree(Ray ray, vec3 inverse_direction, float limit, bool any_will_do, out uint nearest, inout bool given_up) {
-    uint octant = (ray.direction.x < 0.0 ? 0u : 4u) | (ray.direction.y < 0.0 ? 0u : 2u) | (ray.direction.z < 0.0 ? 0u : 1u);
-    uvec2 nodes = uvec2(0u, 0x80000000u); // the root
-    uvec2 shapes = uvec2(0u);
+    uint first = 0u; // the root
+    uint children = NO_CHILDREN << 2u;
     float distance = MISS;
+    nearest = 0u;
     uint steps = 0u;
-    stack[TREE_DEPTH] = uvec2(0u);
+    stack[TREE_DEPTH] = NOTHING_LEFT;
     [[unroll]] for (uint i = 0u; i < TREE_DEPTH; ++i) {
-        stack[i] = uvec2(0u);
+        stack[i] = NOTHING_LEFT;
     }
-    while (true) {
-        if (shapes.y == 0u) {
-            uint place = uint(findMSB(nodes.y));
-            uint slot = (place - 24u) ^ octant;
-            uint node = nodes.x + uint(bitCount(nodes.y & ~(0xffffffffu << slot)));
-            nodes.y &= ~(1u << place);
-            uvec4 header;
-            uvec2 bases;
-            uint met = meet_children(ray, inverse_direction, octant, distance < limit ? distance : limit, node, header, bases);
-            if (nodes.y > 0xffffffu && met > 0xffffffu) {
-                push_group(nodes);
-            }
-            nodes = met > 0xffffffu ? uvec2(bases.x, met & 0xff000000u | header.w >> 24u) : nodes;
-            shapes = uvec2(bases.y, met & 0xffffffu);
-        }
-        if (shapes.y != 0u) {
-            uint place = uint(findMSB(shapes.y));
-            shapes.y &= ~(1u << place);
-            uint index = shapes.x + place;
-            float at = intersect_tree_shape(ray, inverse_direction, tree_shape(index));
+    bool searching;
+    do {
+        uint index = first + (children & 3u);
+        children >>= 2u;
+        uint left_behind = first << 7u | children;
+        uvec4 record[3];
+        fetch_record(index, record);
+        bool descends = false;
+        if (is_node(record)) {
+            TreeNode node = to_node(record);
+            uint met = meet_children(ray, inverse_direction, distance < limit ? distance : limit, node);
+            descends = met != NO_CHILDREN;
+            first = descends ? node.first : first;
+            children = descends ? met : children;
+        } else {
+            float at = intersect_tree_shape(ray, inverse_direction, to_shape(record));
             bool closer = at < distance;
             nearest = closer ? index : nearest;
             distance = closer ? at : distance;
         }
-        if (shapes.y == 0u && nodes.y <= 0xffffffu) {
-            nodes = pop_group();
+        bool pushes = descends && (left_behind & 0x7fu) != NO_CHILDREN;
+        bool pops = children == NO_CHILDREN;
+        uint top = shift_stack(pushes, pops, left_behind);
+        if (pops) {
+            first = top >> 7u;
+            children = top & 0x7fu;
         }
-        if (any_will_do && distance < limit || shapes.y == 0u && nodes.y <= 0xffffffu) {
-            break;
-        }
-        if (++steps >= MOST_TREE_STEPS) {
-            given_up = true;
-            break;
-        }
-    }
+        searching = children != NO_CHILDREN && !(any_will_do && distance < limit);
+        ++steps;
+    } while (searching && steps < MOST_TREE_STEPS);
+    given_up = given_up || searching;
     return distance < limit ? distance : MISS;
 }
 
@@ -207,7 +225,9 @@ vec3 interpolated_normal(uint index, vec2 barycentric, vec3 own) {
 Hit intersect_tree(Ray ray, vec3 inverse_direction, inout bool given_up) {
     uint index = 0u;
     float distance = search_tree(ray, inverse_direction, MISS, false, index, given_up);
-    TreeShape shape = tree_shape(index);
+    uvec4 record[3];
+    fetch_record(index, record);
+    TreeShape shape = to_shape(record);
     Hit hit = Hit(distance, shape.material, -shape.position, 1.0, vec3(0.0));
     if (in_tree(KIND_BOX) && shape.kind == KIND_BOX) {
         intersect_box(ray, inverse_direction, Box(shape.position, shape.a), hit.normal);
@@ -219,7 +239,7 @@ Hit intersect_tree(Ray ray, vec3 inverse_direction, inout bool given_up) {
         if (in_tree(KIND_SMOOTH)) {
             vec2 barycentric;
             intersect_triangle(ray, Triangle(shape.position, shape.a, shape.b), barycentric);
-            hit.shading_normal = interpolated_normal(index, barycentric, hit.normal);
+            hit.shading_normal = interpolated_normal(shape.index, barycentric, hit.normal);
         }
     }
     return hit;

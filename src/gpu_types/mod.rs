@@ -85,6 +85,20 @@ pub struct Environment {
     pub pad2: u32,
 }
 
+/// The three texels of a node in bvh.glsl. The last byte of `about` is one, where a shape's index of a
+/// material has zero.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct TreeNode {
+    pub origin: [f32; 3],
+    pub about: u32,
+    pub planes_x: [u32; 2],
+    pub planes_y: [u32; 2],
+    pub planes_z: [u32; 2],
+    pub first: u32,
+    pub pad0: u32,
+}
+
 /// The three texels of a shape in bvh.glsl.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
@@ -94,7 +108,7 @@ pub struct TreeShape {
     pub a: [f32; 3],
     pub kind: u32,
     pub b: [f32; 3],
-    pub pad0: u32,
+    pub index: u32,
 }
 
 /// `Counters` of trace_batch.glsl, added to by every dispatch.

@@ -1,7 +1,7 @@
 //! A scene as the shaders want it.
 
-use super::{Box, Environment, Light, Material, Plane, Sphere, TreeShape, Triangle};
-use crate::scene::{self, Bounded, Bvh, LightKind, Scene};
+use super::{Box, Environment, Light, Material, Plane, Sphere, TreeNode, TreeShape, Triangle};
+use crate::scene::{self, Bounded, Bvh, LightKind, Node, Record, Scene};
 use bytemuck::Zeroable;
 use glam::Vec3;
 
@@ -31,8 +31,8 @@ pub struct SceneData {
 /// A tree of bounded shapes: see bvh.glsl.
 #[derive(Debug)]
 pub struct Tree {
-    pub nodes: Vec<[u32; 20]>,
-    pub shapes: Vec<TreeShape>,
+    /// Each a [`TreeNode`] or a [`TreeShape`].
+    pub records: Vec<[u32; 12]>,
     /// Of the three corners of each shape, if any has some.
     pub normals: Vec<[[f32; 4]; 3]>,
     pub depth: u32,
@@ -88,30 +88,12 @@ impl SceneData {
 
 impl Tree {
     fn new(bvh: &Bvh) -> Self {
-        let kind = |shape: &Bounded| match shape {
-            Bounded::Sphere(_) => 0,
-            Bounded::Box(_) => 1,
-            Bounded::Triangle(_) => 2,
-        };
         let mut tree = Self {
-            nodes: bvh.nodes.clone(),
-            shapes: Vec::with_capacity(bvh.shapes.len()),
+            records: bvh.records.iter().map(|record| tree_record(bvh, record)).collect(),
             normals: Vec::new(),
             depth: bvh.depth,
             kinds: bvh.shapes.iter().fold(0, |kinds, (shape, _)| kinds | 1 << kind(shape)),
         };
-        for (shape, material) in &bvh.shapes {
-            let (position, a, b) = match shape {
-                Bounded::Sphere(sphere) => (sphere.center, Vec3::splat(sphere.radius), Vec3::ZERO),
-                Bounded::Box(aabb) => (aabb.lower, aabb.upper, Vec3::ZERO),
-                Bounded::Triangle(triangle) => {
-                    let [a, b, c] = triangle.vertices;
-                    (a, b - a, c - a)
-                }
-            };
-            let [position, a, b] = [position, a, b].map(|vector| vector.to_array());
-            tree.shapes.push(TreeShape { position, material: *material, a, kind: kind(shape), b, pad0: 0 });
-        }
         let normals = |shape: &Bounded| match shape {
             Bounded::Triangle(triangle) => triangle.normals,
             Bounded::Sphere(_) | Bounded::Box(_) => None,
@@ -125,6 +107,50 @@ impl Tree {
         }
         tree
     }
+}
+
+/// `KIND_SPHERE` and so on of bvh.glsl.
+fn kind(shape: &Bounded) -> u32 {
+    match shape {
+        Bounded::Sphere(_) => 0,
+        Bounded::Box(_) => 1,
+        Bounded::Triangle(_) => 2,
+    }
+}
+
+fn tree_record(bvh: &Bvh, record: &Record) -> [u32; 12] {
+    match record {
+        Record::Node(node) => bytemuck::cast(tree_node(node)),
+        Record::Leaf(index) => bytemuck::cast(tree_shape(*index, &bvh.shapes[*index as usize])),
+    }
+}
+
+fn tree_node(node: &Node) -> TreeNode {
+    // As the exponent's bits of an f32.
+    let [x, y, z] = node.exponents.map(|exponent| (exponent + 127) as u32);
+    let [planes_x, planes_y, planes_z] = node.planes.map(|planes| planes.map(u32::from_le_bytes));
+    TreeNode {
+        origin: node.origin.to_array(),
+        about: x | y << 8 | z << 16 | 1 << 24,
+        planes_x,
+        planes_y,
+        planes_z,
+        first: node.first,
+        pad0: 0,
+    }
+}
+
+fn tree_shape(index: u32, (shape, material): &(Bounded, u32)) -> TreeShape {
+    let (position, a, b) = match shape {
+        Bounded::Sphere(sphere) => (sphere.center, Vec3::splat(sphere.radius), Vec3::ZERO),
+        Bounded::Box(aabb) => (aabb.lower, aabb.upper, Vec3::ZERO),
+        Bounded::Triangle(triangle) => {
+            let [a, b, c] = triangle.vertices;
+            (a, b - a, c - a)
+        }
+    };
+    let [position, a, b] = [position, a, b].map(|vector| vector.to_array());
+    TreeShape { position, material: *material, a, kind: kind(shape), b, index }
 }
 
 fn sphere(sphere: &scene::Sphere) -> Sphere {

@@ -1,7 +1,7 @@
 //! Traces a batch of samples for each pixel of a lattice into the tracing image.
 
 use super::{Adaptive, BlueNoiseTile};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::gpu_types::{SceneData, TracePush};
 use crate::vulkan::{
     Binding, BindingSet, Buffer, ComputePipeline, Device, Image, Recording, SOFTWARE, Shader, TexelBuffer,
@@ -23,8 +23,11 @@ const MOST_KEPT: usize = 64;
 /// triangles some dozens are usual. Were there no limit, nor could there be a safe batch.
 const MOST_TREE_STEPS: usize = 1024;
 
+/// The stack of bvh.glsl keeps the index of a record in 25 bits.
+const MOST_TREE_RECORDS: usize = 1 << 25;
+
 /// `SPELLED_OUT` of bvh.glsl: where the stack is deeper, a step goes through the rest of it in loops.
-const SPELLED_OUT_STACK: u64 = 12;
+const SPELLED_OUT_STACK: u64 = 20;
 
 /// The bits of a sample index, which the Sobol sequence goes through.
 const SAMPLER_LOOP_STEPS: u64 = 24;
@@ -32,8 +35,8 @@ const SAMPLER_LOOP_STEPS: u64 = 24;
 /// A scene on the device.
 pub struct SceneBuffers {
     buffers: [Arc<Buffer>; 8],
-    /// Nodes, shapes and normals of the tree.
-    tree: [Arc<TexelBuffer>; 3],
+    /// The tree, and the normals of its shapes.
+    tree: [Arc<TexelBuffer>; 2],
     /// The tree's depth, the kinds in it, and the most steps that a ray can take in it.
     tree_constants: [u32; 3],
     /// Spheres, boxes, triangles, planes, lights, lights that cast shadows, materials.
@@ -51,15 +54,18 @@ impl SceneBuffers {
     /// Uploads a scene.
     ///
     /// # Errors
-    /// [`crate::error::Error::Memory`], or what Vulkan says.
+    /// [`Error::Memory`], also where it has more shapes than a tree can hold, or what Vulkan says.
     pub fn new(device: &Arc<Device>, scene: &SceneData) -> Result<Self> {
         let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
-        let (nodes, shapes, normals, depth, kinds) = match &scene.tree {
-            Some(tree) => (&*tree.nodes, &*tree.shapes, &*tree.normals, tree.depth, tree.kinds),
-            None => (&[][..], &[][..], &[][..], 0, 0),
+        let (records, normals, depth, kinds) = match &scene.tree {
+            Some(tree) => (&*tree.records, &*tree.normals, tree.depth, tree.kinds),
+            None => (&[][..], &[][..], 0, 0),
         };
+        if records.len() > MOST_TREE_RECORDS {
+            return Err(Error::Memory { what: "the tree of shapes" });
+        }
         let most_steps = if device.info().kind == SOFTWARE { MOST_TREE_STEPS } else { usize::MAX };
-        let steps = count((nodes.len() + shapes.len()).min(most_steps));
+        let steps = count(records.len().min(most_steps));
         let few =
             scene.material_of_shape.len().max(scene.materials.len()).max(scene.lights.len()) <= MOST_KEPT;
         Ok(Self {
@@ -74,8 +80,7 @@ impl SceneBuffers {
                 Arc::new(Buffer::upload(device, "environment", &[scene.environment])?),
             ],
             tree: [
-                Arc::new(TexelBuffer::upload(device, "nodes of the tree", nodes)?),
-                Arc::new(TexelBuffer::upload(device, "shapes of the tree", shapes)?),
+                Arc::new(TexelBuffer::upload(device, "tree", records)?),
                 Arc::new(TexelBuffer::upload(device, "normals", normals)?),
             ],
             tree_constants: [depth, kinds, steps],
@@ -103,7 +108,7 @@ impl SceneBuffers {
     pub fn most_loop_steps(&self, max_bounces: u32) -> u64 {
         let [spheres, boxes, triangles, planes, lights, ..] = self.counts.map(u64::from);
         let [depth, _, steps] = self.tree_constants.map(u64::from);
-        let tree = steps * (1 + 2 * depth.saturating_sub(SPELLED_OUT_STACK));
+        let tree = steps * (1 + depth.saturating_sub(SPELLED_OUT_STACK));
         let shapes = spheres + boxes + triangles + planes + tree;
         SAMPLER_LOOP_STEPS + u64::from(self.most_surfaces(max_bounces)) * (1 + shapes + lights * (1 + shapes))
     }

@@ -15,7 +15,7 @@ mod shape;
 mod stage;
 
 pub use builtin::{BUILTINS, Builtin};
-pub use bvh::{Bounded, Bvh};
+pub use bvh::{Bounded, Bvh, Node, Record};
 pub use camera::{Camera, Frame, Lens};
 pub use file::load;
 pub use light::{Background, Light, LightKind};
