@@ -69,9 +69,11 @@ void main() {
     vec4 color = vec4(srgb_encode(shown), 1.0);
     color = push.blue_first == 1u ? color.bgra : color;
     uvec2 end = min(first + push.preview_stride, push.extent);
-    for (uint y = first.y; y < end.y; ++y) {
-        for (uint x = first.x; x < end.x; ++x) {
-            imageStore(picture_image, ivec2(x, y), color);
-        }
-    }
+    uvec2 at = first;
+    do {
+        at.x = first.x;
+        do {
+            imageStore(picture_image, ivec2(at), color);
+        } while (++at.x < end.x);
+    } while (++at.y < end.y);
 }

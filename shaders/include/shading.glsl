@@ -70,6 +70,8 @@ vec3 shade(Material material, Ray ray, SurfacePoint at, inout uint rays, inout b
     if (material.kd == 0.0 && material.ks == 0.0) {
         return sum;
     }
+    // Loops end at their foot. At their head, Mesa's software device would go through them once more than
+    // needed: it looks whether any invocation goes on at the foot alone.
     uint lights = SHADOW_LIGHT_COUNT;
     if (lights > 0u) {
         uint i = 0u;
@@ -90,7 +92,8 @@ vec3 radiance(Ray ray, uint max_bounces, inout uint rays) {
     vec3 sum = vec3(0.0);
     vec3 throughput = vec3(1.0);
     bool given_up = false;
-    for (uint bounce = 0u; bounce <= max_bounces; ++bounce) {
+    uint bounce = 0u;
+    do {
         ++rays;
         Hit hit = intersect_scene(ray, given_up);
         if (hit.distance >= MISS) {
@@ -118,7 +121,7 @@ vec3 radiance(Ray ray, uint max_bounces, inout uint rays) {
         // What would enter the surface is mirrored out of it again.
         mirrored -= 2.0 * smaller(dot(mirrored, at.normal), 0.0) * at.normal;
         ray = Ray(at.lifted, mirrored);
-    }
+    } while (++bounce <= max_bounces);
     return given_up ? vec3(uintBitsToFloat(0x7f800000u)) : sum;
 }
 
