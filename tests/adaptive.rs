@@ -174,7 +174,8 @@ fn counts_can_be_looked_at() {
     }
 }
 
-/// Catches a picture that goes on after its last pixel has stopped, and one that starts again there.
+/// Catches a picture that goes on after its last pixel has stopped, one that starts again there, and
+/// counts still shown as shares of what was wanted before.
 #[test]
 fn a_picture_without_noise_stops_early() {
     let gpu = Gpu::new();
@@ -185,9 +186,14 @@ fn a_picture_without_noise_stops_early() {
     assert!(film.iter().all(|texel| texel[3] == 32.0));
     let progress = renderer.progress();
     assert_eq!((progress.samples, progress.active_pixels), (32, Some(0)));
-    settings.samples = 8192;
-    renderer.set(&settings).expect("valid settings");
-    assert!(renderer.finished(), "a higher ceiling changes nothing");
+    settings.view.overlay = Some(Overlay::Count);
+    let mut shown_of = |samples| {
+        settings.samples = samples;
+        renderer.set(&settings).expect("valid settings");
+        assert!(renderer.finished(), "another ceiling changes nothing");
+        renderer.read_picture().expect("a picture")[0]
+    };
+    assert_eq!([32, 64, 8192].map(&mut shown_of), [255, 188, 13]);
     settings.estimator.noise_threshold = 0.01;
     renderer.set(&settings).expect("valid settings");
     assert!(!renderer.finished(), "another threshold starts anew");

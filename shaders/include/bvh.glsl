@@ -105,11 +105,11 @@ uint child_key(vec3 enter, vec3 leave, float limit, uint child) {
 
 #define SORT(a, b) { uint smaller_key = min(a, b); b = max(a, b); a = smaller_key; }
 
-// The children of a node whose boxes the ray meets before limit, two bits each, the nearest in the lowest, and
-// above them all a one.
+// The children of a node whose boxes the ray meets before limit, two bits each, and above them all a one. Sorted,
+// the nearest is in the lowest bits.
 const uint NO_CHILDREN = 1u;
 
-uint meet_children(Ray ray, vec3 inverse_direction, float limit, TreeNode node) {
+uint meet_children(Ray ray, vec3 inverse_direction, float limit, bool sorted, TreeNode node) {
     vec3 step = uintBitsToFloat(uvec3(node.about << 23u, node.about << 15u, node.about << 7u) & 0x7f800000u) * inverse_direction;
     vec3 origin = (node.origin - ray.origin) * inverse_direction;
     bvec3 backwards = lessThan(inverse_direction, vec3(0.0));
@@ -123,11 +123,13 @@ uint meet_children(Ray ray, vec3 inverse_direction, float limit, TreeNode node) 
         vec3 leave = vec3(x.y >> by & 0xffu, y.y >> by & 0xffu, z.y >> by & 0xffu) * step + origin;
         keys[child] = child_key(enter, leave, limit, child);
     }
-    SORT(keys[0], keys[1])
-    SORT(keys[2], keys[3])
-    SORT(keys[0], keys[2])
-    SORT(keys[1], keys[3])
-    SORT(keys[1], keys[2])
+    if (sorted) {
+        SORT(keys[0], keys[1])
+        SORT(keys[2], keys[3])
+        SORT(keys[0], keys[2])
+        SORT(keys[1], keys[3])
+        SORT(keys[1], keys[2])
+    }
     uint met = NO_CHILDREN;
     met = keys[3] != FAR_KEY ? met << 2u | keys[3] & 3u : met;
     met = keys[2] != FAR_KEY ? met << 2u | keys[2] & 3u : met;
@@ -185,7 +187,8 @@ float search_tree(Ray ray, vec3 inverse_direction, float limit, bool any_will_do
         bool descends = false;
         if (is_node(record)) {
             TreeNode node = to_node(record);
-            uint met = meet_children(ray, inverse_direction, distance < limit ? distance : limit, node);
+            float nearer_than = distance < limit ? distance : limit;
+            uint met = meet_children(ray, inverse_direction, nearer_than, !any_will_do, node);
             descends = met != NO_CHILDREN;
             first = descends ? node.first : first;
             children = descends ? met : children;

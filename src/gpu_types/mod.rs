@@ -177,7 +177,7 @@ pub struct SelectPush {
 
 /// `ResolvePush` of resolve.comp.
 #[repr(C)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable, PartialEq)]
 pub struct ResolvePush {
     pub extent: [u32; 2],
     pub preview_stride: u32,

@@ -15,7 +15,7 @@ use crate::error::{Error, Result};
 use crate::gpu_types::{Counters, ResolvePush, SceneData, estimator_constants, sampler_constant};
 use crate::passes::{Accumulate, BlueNoiseTile, Resolve, SceneBuffers, Select, Shaders, Trace};
 use crate::scene::SceneRef;
-use crate::settings::{Overlay, Sampler, Settings, View};
+use crate::settings::{Overlay, Sampler, Settings};
 use crate::vulkan::{BindingSet, Buffer, Device, Image, Recording, Residence, SOFTWARE};
 use film::Film;
 use schedule::{Cursor, MAX_BATCH, reach};
@@ -57,8 +57,8 @@ pub struct Renderer {
     list: Option<usize>,
     filled_stride: u32,
     needs_clear: bool,
-    /// How the picture was resolved, unless the film has changed since.
-    resolved: Option<View>,
+    /// How the picture was resolved, and whether with holes, unless the film has changed since.
+    resolved: Option<(ResolvePush, bool)>,
     blue_first: bool,
     max_batch: u32,
     /// What the scene's loops allow.
@@ -123,9 +123,7 @@ impl Renderer {
 
     /// Resolves to b, g, r, a bytes from now on, for a window that wants them, or to r, g, b, a.
     pub fn set_blue_first(&mut self, blue_first: bool) {
-        if self.blue_first != blue_first {
-            (self.blue_first, self.resolved) = (blue_first, None);
-        }
+        self.blue_first = blue_first;
     }
 
     /// What to render from now on. The film starts anew where the estimator changed, or where it
@@ -221,9 +219,6 @@ impl Renderer {
         let (Some(settings), Some(film)) = (&self.settings, &self.film) else {
             return;
         };
-        if self.resolved == Some(settings.view) {
-            return;
-        }
         let (bindings, preview_stride) = match self.samples {
             0 => (&film.resolve_preview, self.filled_stride),
             _ => (&film.resolve, 1),
@@ -236,13 +231,16 @@ impl Renderer {
         let exposure = settings.view.exposure_stops.exp2();
         let blue_first = self.blue_first.into();
         let push = ResolvePush { extent, preview_stride, exposure, count_scale, blue_first };
-        recording.barrier();
         // A cell of the preview at the picture's edge may have no texel of its own.
         let has_holes =
             preview_stride > 1 || reach(settings.estimator.jitter) > 0 || self.tally.saw_rejected_samples();
+        if self.resolved == Some((push, has_holes)) {
+            return;
+        }
+        recording.barrier();
         self.resolve.record(recording, bindings, &push, has_holes);
         recording.barrier();
-        self.resolved = Some(settings.view);
+        self.resolved = Some((push, has_holes));
     }
 
     /// Takes in what the device measured and counted while it ran `frame`, whose commands are done.
@@ -250,12 +248,7 @@ impl Renderer {
     /// # Errors
     /// What Vulkan says: a lost device.
     pub fn collect(&mut self, frame: usize) -> Result<()> {
-        let holes_were_known = self.tally.saw_rejected_samples();
-        self.tally.collect(frame)?;
-        if self.tally.saw_rejected_samples() != holes_were_known {
-            self.resolved = None;
-        }
-        Ok(())
+        self.tally.collect(frame)
     }
 
     /// The resolved picture, as [`Renderer::record_resolve`] left it.
