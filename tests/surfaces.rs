@@ -12,7 +12,7 @@ use glam::{DVec3, Vec3};
 use thinlens::reference::intersect::intersect;
 use thinlens::reference::shading::radiance;
 use thinlens::reference::{Ray, sampler, tone};
-use thinlens::scene::{SceneRef, Shaded, Triangle};
+use thinlens::scene::{Bvh, SceneRef, Shaded, Triangle};
 use thinlens::settings::Sampler;
 
 #[repr(C)]
@@ -119,7 +119,31 @@ fn shapes() -> Vec<(&'static str, SceneRef)> {
         ("plane", scene(&[plane])),
         ("all of them", scene(&[sphere, far_sphere, a_box, triangle, plane])),
         ("a crowd", crowd()),
+        ("a chain", chain()),
     ]
+}
+
+/// Triangles one behind the other, each larger than all before it, and a wall behind them: a tree deeper
+/// than the part of the shaders' stack that is spelled out. Rays that pass the triangles by in the other
+/// halves of their boxes leave something behind at every node, and find the wall last of all.
+fn chain() -> SceneRef {
+    let mut toml = format!("{CAMERA}[emissive.m]\nradiance = 1\n");
+    let mut at = 1.0;
+    for _ in 0..72 {
+        let beside = 0.8 * at;
+        toml += &format!(
+            "[[triangle]]\nvertices = [[{at}, -{at}, -{at}], [{at}, {beside}, -{at}], [{at}, -{at}, {beside}]]\nmaterial = \"m\"\n"
+        );
+        at *= 1.32;
+    }
+    toml += &format!(
+        "[[box]]\nlower = [{at}, -{at}, -{at}]\nupper = [{}, {at}, {at}]\nmaterial = \"m\"\n",
+        1.1 * at
+    );
+    let scene = scene_of(&toml);
+    let depth = Bvh::new(&scene).expect("a tree").depth;
+    assert!(depth > 20, "the chain's tree is {depth} deep only");
+    scene
 }
 
 /// So many small shapes of each kind that they are found by a tree.
@@ -242,6 +266,7 @@ fn rays_meet_what_the_oracles_meet() {
             "tree_child_of_another_number",
             "tree_children_lost",
             "tree_stack_one_deep",
+            "tree_stack_as_deep_as_spelled_out",
             "tree_pops_nothing",
             "tree_planes_of_the_other_side",
             "tree_third_child_forgotten",
