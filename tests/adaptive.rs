@@ -124,7 +124,10 @@ fn what_does_not_stop_is_what_it_was() {
         settings.estimator.lens.diameter = 3.0;
         let got = film(&gpu, &settings);
         settings.estimator.noise_threshold = 0.0;
-        let uniform = film(&gpu, &settings);
+        let mut renderer = gpu.renderer();
+        // As adaptive pictures are cut, between whose batches pixels may stop.
+        renderer.set_max_batch(16);
+        let uniform = render(&mut renderer, &settings).expect("a film");
         let same = bits(&got).iter().zip(bits(&uniform)).filter(|(got, uniform)| **got == *uniform).count();
         let stopped = got.iter().zip(&uniform).filter(|(got, uniform)| got[3] < uniform[3]).count();
         assert!(same + stopped >= got.len(), "jitter {jitter}: {same} the same, {stopped} stopped");

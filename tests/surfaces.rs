@@ -6,7 +6,7 @@ mod common;
 use anyhow::{Result, ensure};
 use bytemuck::{Pod, Zeroable};
 use common::probe::probe;
-use common::scenes::{EVERYTHING, ROOM};
+use common::scenes::{EVERYTHING, ROOM, one_behind_the_other};
 use common::{Gpu, plain_scene_of, prove, scene_of};
 use glam::{DVec3, Vec3};
 use thinlens::reference::intersect::intersect;
@@ -123,24 +123,9 @@ fn shapes() -> Vec<(&'static str, SceneRef)> {
     ]
 }
 
-/// Triangles one behind the other, each larger than all before it, and a wall behind them: a tree deeper
-/// than the part of the shaders' stack that is spelled out. Rays that pass the triangles by in the other
-/// halves of their boxes leave something behind at every node, and find the wall last of all.
+/// Its tree is deeper than the part of the shaders' stack that is spelled out.
 fn chain() -> SceneRef {
-    let mut toml = format!("{CAMERA}[emissive.m]\nradiance = 1\n");
-    let mut at = 1.0;
-    for _ in 0..72 {
-        let beside = 0.8 * at;
-        toml += &format!(
-            "[[triangle]]\nvertices = [[{at}, -{at}, -{at}], [{at}, {beside}, -{at}], [{at}, -{at}, {beside}]]\nmaterial = \"m\"\n"
-        );
-        at *= 1.32;
-    }
-    toml += &format!(
-        "[[box]]\nlower = [{at}, -{at}, -{at}]\nupper = [{}, {at}, {at}]\nmaterial = \"m\"\n",
-        1.1 * at
-    );
-    let scene = scene_of(&toml);
+    let scene = scene_of(&(CAMERA.to_owned() + &one_behind_the_other()));
     let depth = Bvh::new(&scene).expect("a tree").depth;
     assert!(depth > 20, "the chain's tree is {depth} deep only");
     scene

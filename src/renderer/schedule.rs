@@ -6,11 +6,15 @@
 use crate::gpu_types::Lattice;
 
 /// Samples a pixel in one pass, once a picture is under way.
-pub const MAX_BATCH: u32 = 16;
+pub const MAX_BATCH: u32 = 64;
+
+/// Where the first passes end: soon, so that there is something to see, and then less and less often, for
+/// every pass takes its start.
+const FIRST_CUTS: [u32; 5] = [1, 4, 16, 32, MAX_BATCH];
 
 /// An adaptive picture chooses the pixels to go on with whenever it has so many samples a pixel more, but
 /// first when it has twice as many: fewer may all miss what is there.
-const SELECT_EVERY: u32 = 16;
+pub const SELECT_EVERY: u32 = 16;
 
 /// Whether pixels may stop at so many samples.
 pub fn selects_at(samples: u32) -> bool {
@@ -128,14 +132,11 @@ impl Cursor {
 }
 
 impl Pass {
-    /// The batch that starts at `first_sample`, of every pixel: cut at 1, 2, 4, 8, 16, then at
-    /// every `max_batch` samples, and at `target`.
+    /// The batch that starts at `first_sample`, of every pixel: cut at 1, 4, 16, 32, 64 as far as
+    /// `max_batch`, then at every `max_batch` samples, and at `target`.
     pub fn whole(first_sample: u32, target: u32, max_batch: u32) -> Self {
-        let cut = if first_sample < max_batch {
-            (first_sample + 1).next_power_of_two().min(max_batch)
-        } else {
-            (first_sample / max_batch + 1) * max_batch
-        };
+        let early = FIRST_CUTS.into_iter().find(|cut| *cut > first_sample && *cut <= max_batch);
+        let cut = early.unwrap_or((first_sample / max_batch + 1) * max_batch);
         Self { first_sample, sample_count: cut.min(target) - first_sample, stride: 1, phase: 0 }
     }
 
@@ -225,12 +226,14 @@ mod tests {
             }
             cuts
         };
-        assert_eq!(cuts(70, 16), [1, 2, 4, 8, 16, 32, 48, 64, 70]);
-        assert_eq!(cuts(3, 16), [1, 2, 3]);
-        assert_eq!(cuts(9, 4), [1, 2, 4, 8, 9]);
+        assert_eq!(cuts(200, MAX_BATCH), [1, 4, 16, 32, 64, 128, 192, 200]);
+        assert_eq!(cuts(70, 16), [1, 4, 16, 32, 48, 64, 70]);
+        assert_eq!(cuts(3, 16), [1, 3]);
+        assert_eq!(cuts(9, 2), [1, 2, 4, 6, 8, 9]);
         assert_eq!(cuts(3, 1), [1, 2, 3]);
         // From a count that an earlier, lower target left behind.
         assert_eq!(Pass::whole(20, 64, 16).end(), 32);
+        assert_eq!(Pass::whole(70, 200, MAX_BATCH).end(), 128);
     }
 
     /// Catches a phase listed twice: one pixel would be sampled twice and another never.

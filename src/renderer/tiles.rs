@@ -163,7 +163,12 @@ impl Renderer {
             _ => {
                 // A sample that strays must be found again by its index, so it travels alone.
                 let wide = reach(estimator.jitter) > 0;
-                let max_batch = if wide { 1 } else { self.max_batch.min(self.largest_batch) };
+                let longest = match (wide, estimator.is_adaptive()) {
+                    (true, _) => 1,
+                    (false, true) => schedule::SELECT_EVERY,
+                    (false, false) => u32::MAX,
+                };
+                let max_batch = longest.min(self.max_batch).min(self.largest_batch);
                 Pass::whole(self.samples, settings.samples, max_batch)
             }
         }

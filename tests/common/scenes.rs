@@ -121,3 +121,23 @@ center = [0.6, 0, -3]
 radius = 0.5
 material = "burning"
 "#;
+
+/// Triangles, each larger than all before it, and a wall behind them: a deep tree. Rays that pass the
+/// triangles by in the other halves of their boxes leave something behind at every node, and find the
+/// wall last of all.
+pub fn one_behind_the_other() -> String {
+    let mut toml = String::from("[emissive.m]\nradiance = 1\n");
+    let mut at = 1.0;
+    for _ in 0..72 {
+        let beside = 0.8 * at;
+        toml += &format!(
+            "[[triangle]]\nvertices = [[{at}, -{at}, -{at}], [{at}, {beside}, -{at}], [{at}, -{at}, {beside}]]\nmaterial = \"m\"\n"
+        );
+        at *= 1.32;
+    }
+    toml += &format!(
+        "[[box]]\nlower = [{at}, -{at}, -{at}]\nupper = [{}, {at}, {at}]\nmaterial = \"m\"\n",
+        1.1 * at
+    );
+    toml
+}
