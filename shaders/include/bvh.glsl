@@ -142,7 +142,6 @@ uint meet_children(Ray ray, vec3 inverse_direction, float limit, bool sorted, Tr
 // invocation to invocation, and is spelled out, for Mesa's software device unrolls no loop inside another one.
 uint stack[TREE_DEPTH + 1u];
 const uint SPELLED_OUT = 20u;
-const uint NOTHING_LEFT = NO_CHILDREN; // children of no record
 
 #define SHIFT(i) \
     if (depth >= i) { \
@@ -158,9 +157,7 @@ uint shift_stack(bool pushes, bool pops, uint above) {
     SHIFT(1u) SHIFT(2u) SHIFT(3u) SHIFT(4u) SHIFT(5u) SHIFT(6u) SHIFT(7u) SHIFT(8u) SHIFT(9u) SHIFT(10u)
     SHIFT(11u) SHIFT(12u) SHIFT(13u) SHIFT(14u) SHIFT(15u) SHIFT(16u) SHIFT(17u) SHIFT(18u) SHIFT(19u) SHIFT(20u)
     for (uint i = SPELLED_OUT + 1u; i <= depth; ++i) {
-        uint here = stack[i - 1u];
-        stack[i - 1u] = pushes ? above : pops ? stack[i] : here;
-        above = here;
+        SHIFT(i)
     }
     return top;
 }
@@ -173,9 +170,9 @@ float search_tree(Ray ray, vec3 inverse_direction, float limit, bool any_will_do
     float distance = MISS;
     nearest = 0u;
     uint steps = 0u;
-    stack[TREE_DEPTH] = NOTHING_LEFT;
+    stack[TREE_DEPTH] = NO_CHILDREN;
     [[unroll]] for (uint i = 0u; i < TREE_DEPTH; ++i) {
-        stack[i] = NOTHING_LEFT;
+        stack[i] = NO_CHILDREN;
     }
     bool searching;
     do {

@@ -13,7 +13,7 @@ struct TracePush {
     uint seed;
     uint max_bounces;
     uint first_sample;
-    uint sample_count;
+    uint sample_count; // at least one
 };
 
 // To be copied first thing in main(), for the same reason as the scene (see keep_scene).

@@ -3,7 +3,7 @@
 use super::{Adaptive, BlueNoiseTile};
 use crate::error::Result;
 use crate::gpu_types::AccumulatePush;
-use crate::vulkan::{Binding, BindingSet, ComputePipeline, Device, Image, Recording, Shader, shader};
+use crate::vulkan::{BindingSet, ComputePipeline, Device, Image, Recording, Shader, shader};
 use std::sync::Arc;
 
 /// Pass 2. See `shaders/accumulate.comp`.
@@ -47,15 +47,9 @@ impl Accumulate {
         adaptive: &Adaptive,
         list: usize,
     ) -> Result<BindingSet> {
-        let bindings = [
-            (0, Binding::Image(Arc::clone(batch))),
-            (1, Binding::Image(Arc::clone(film))),
-            adaptive.bind_list(13, list),
-            adaptive.bind_batch_moments(),
-            adaptive.bind_film_moments(),
-            self.tile.binding(),
-        ];
-        BindingSet::new(&self.pipeline, &bindings)
+        let moments = [adaptive.bind_batch_moments(), adaptive.bind_film_moments()];
+        let images = adaptive.bind_images(batch, film, list);
+        BindingSet::new(&self.pipeline, &[&images[..], &moments, &[self.tile.binding()]].concat())
     }
 
     /// Merges `extent` pixels of the push constants' lattice.

@@ -42,6 +42,21 @@ impl Adaptive {
         &self.lists[list]
     }
 
+    /// What the passes from the tracing image `batch` into `film` have in common: both, and the list that is
+    /// read.
+    pub(super) fn bind_images(
+        &self,
+        batch: &Arc<Image>,
+        film: &Arc<Image>,
+        list: usize,
+    ) -> [(u32, Binding); 3] {
+        [
+            (0, Binding::Image(Arc::clone(batch))),
+            (1, Binding::Image(Arc::clone(film))),
+            self.bind_list(13, list),
+        ]
+    }
+
     /// One of the lists, bound there.
     pub fn bind_list(&self, binding: u32, list: usize) -> (u32, Binding) {
         (binding, Binding::Buffer(Arc::clone(&self.lists[list])))

@@ -1,6 +1,6 @@
 //! The passes, in the order of the data: a pipeline and its `record()` each. Trace, accumulate and resolve
-//! make every picture; select belongs to adaptive ones. A pass, its
-//! shader, its file and its debug label share one name.
+//! make every picture; select belongs to adaptive ones. A pass, its shader, its file and its debug label
+//! share one name.
 
 mod accumulate;
 mod adaptive;

@@ -3,7 +3,7 @@
 use super::Adaptive;
 use crate::error::Result;
 use crate::gpu_types::SelectPush;
-use crate::vulkan::{Binding, BindingSet, ComputePipeline, Device, Image, Recording, Shader, shader};
+use crate::vulkan::{BindingSet, ComputePipeline, Device, Image, Recording, Shader, shader};
 use std::sync::Arc;
 
 /// What follows pass 2 between the batches of an adaptive picture. See `shaders/select.comp`.
@@ -38,14 +38,8 @@ impl Select {
         adaptive: &Adaptive,
         list: usize,
     ) -> Result<BindingSet> {
-        let bindings = [
-            (0, Binding::Image(Arc::clone(batch))),
-            (1, Binding::Image(Arc::clone(film))),
-            adaptive.bind_list(13, list),
-            adaptive.bind_list(14, 1 - list),
-            adaptive.bind_film_moments(),
-        ];
-        BindingSet::new(&self.0, &bindings)
+        let others = [adaptive.bind_list(14, 1 - list), adaptive.bind_film_moments()];
+        BindingSet::new(&self.0, &[&adaptive.bind_images(batch, film, list)[..], &others].concat())
     }
 
     /// Chooses among `extent` pixels of the push constants' lattice.

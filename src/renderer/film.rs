@@ -1,7 +1,8 @@
 //! The images of one picture size, and what binds them to the passes.
 
+use super::EstimatorPasses;
 use crate::error::{Error, Result};
-use crate::passes::{Accumulate, Adaptive, Resolve, Select};
+use crate::passes::{Adaptive, Resolve};
 use crate::vulkan::{BindingSet, Device, Image, Recording};
 use std::sync::Arc;
 
@@ -16,8 +17,8 @@ pub(super) struct Film {
     pub(super) adaptive: Adaptive,
     /// By the list that is read.
     pub(super) accumulate: [BindingSet; 2],
-    /// Likewise. The other list is written.
-    pub(super) select: [BindingSet; 2],
+    /// Likewise, of an adaptive picture. The other list is written.
+    pub(super) select: Option<[BindingSet; 2]>,
     pub(super) resolve: BindingSet,
     /// Resolves the tracing image instead of the film.
     pub(super) resolve_preview: BindingSet,
@@ -28,8 +29,8 @@ impl Film {
     pub(super) fn new(
         device: &Arc<Device>,
         size: [u32; 2],
-        adaptive: bool,
-        (accumulate, select, resolve): (&Accumulate, &Select, &Resolve),
+        passes: &EstimatorPasses,
+        resolve: &Resolve,
     ) -> Result<Self> {
         let most = device.max_extent();
         if size[0] > most || size[1] > most {
@@ -41,12 +42,15 @@ impl Film {
         let batch = Arc::new(Image::rgba32f(device, "tracing image", size)?);
         let film = Arc::new(Image::rgba32f(device, "accumulation image", size)?);
         let picture = Arc::new(Image::rgba8(device, "picture", size)?);
-        let adaptive = Adaptive::new(device, adaptive.then_some(size))?;
-        let merge = |list| accumulate.bind(&batch, &film, &adaptive, list);
-        let choose = |list| select.bind(&batch, &film, &adaptive, list);
+        let adaptive = Adaptive::new(device, passes.select.as_ref().map(|_| size))?;
+        let merge = |list| passes.accumulate.bind(&batch, &film, &adaptive, list);
+        let select = passes.select.as_ref().map(|select| {
+            let choose = |list| select.bind(&batch, &film, &adaptive, list);
+            Ok([choose(0)?, choose(1)?])
+        });
         Ok(Self {
             accumulate: [merge(0)?, merge(1)?],
-            select: [choose(0)?, choose(1)?],
+            select: select.transpose()?,
             resolve: resolve.bind(&film, &picture)?,
             resolve_preview: resolve.bind(&batch, &picture)?,
             batch,

@@ -12,10 +12,10 @@ mod tiles;
 pub use tally::Progress;
 
 use crate::error::{Error, Result};
-use crate::gpu_types::{Counters, ResolvePush, SceneData, estimator_constants, sampler_constant};
+use crate::gpu_types::{Counters, ResolvePush, SceneData, estimator_constants};
 use crate::passes::{Accumulate, BlueNoiseTile, Resolve, SceneBuffers, Select, Shaders, Trace};
 use crate::scene::SceneRef;
-use crate::settings::{Overlay, Sampler, Settings};
+use crate::settings::{Overlay, Settings};
 use crate::vulkan::{BindingSet, Buffer, Device, Image, Recording, Residence, SOFTWARE};
 use film::Film;
 use schedule::{Cursor, MAX_BATCH, reach};
@@ -40,11 +40,8 @@ pub struct Renderer {
     /// By the list of active pixels that is read.
     trace_bindings: Option<[BindingSet; 2]>,
     shaders: Shaders,
-    /// What the passes are compiled for: see [`estimator_constants`].
-    constants: [u32; 2],
+    passes: Option<EstimatorPasses>,
     tile: BlueNoiseTile,
-    accumulate: Accumulate,
-    select: Select,
     resolve: Resolve,
     counters: Arc<Buffer>,
     tally: Tally,
@@ -64,6 +61,15 @@ pub struct Renderer {
     /// What the scene's loops allow.
     largest_batch: u32,
     device: Arc<Device>,
+}
+
+/// The passes that are compiled for an estimator.
+struct EstimatorPasses {
+    /// For which: see [`estimator_constants`].
+    constants: [u32; 2],
+    accumulate: Accumulate,
+    /// Of adaptive ones.
+    select: Option<Select>,
 }
 
 struct LoadedScene {
@@ -86,19 +92,14 @@ impl Renderer {
     /// # Errors
     /// What Vulkan says.
     pub fn with_shaders(device: &Arc<Device>, shaders: Shaders) -> Result<Self> {
-        // Those of the default settings.
-        let constants = [sampler_constant(Sampler::default()), 0];
         let size = size_of::<Counters>() as u64;
-        let tile = BlueNoiseTile::new(device)?;
         Ok(Self {
             scene: None,
             film: None,
             trace_bindings: None,
             shaders,
-            constants,
-            accumulate: Accumulate::new(device, shaders.accumulate, constants, &tile)?,
-            tile,
-            select: Select::new(device, shaders.select, constants)?,
+            passes: None,
+            tile: BlueNoiseTile::new(device)?,
             resolve: Resolve::new(device, shaders.resolve)?,
             counters: Arc::new(Buffer::new(device, "counters", size, Residence::Device)?),
             tally: Tally::new(device)?,
@@ -139,22 +140,20 @@ impl Renderer {
             last.is_none_or(|last| last.estimator != settings.estimator) || settings.samples < self.samples;
         let estimator = &settings.estimator;
         let constants = estimator_constants(estimator);
-        if self.constants != constants {
+        if self.passes.as_ref().is_none_or(|passes| passes.constants != constants) {
             self.device.wait_idle()?;
             (self.scene, self.film, self.trace_bindings) = (None, None, None);
-            self.accumulate = Accumulate::new(&self.device, self.shaders.accumulate, constants, &self.tile)?;
-            self.select = Select::new(&self.device, self.shaders.select, constants)?;
-            self.constants = constants;
+            self.passes = Some(self.compile_passes(constants, estimator.is_adaptive())?);
         }
         if self.scene.as_ref().is_none_or(|loaded| loaded.scene != estimator.scene) {
-            self.load_scene(&estimator.scene)?;
+            self.load_scene(&estimator.scene, constants)?;
         }
         self.largest_batch = self.fit_loops(estimator.max_bounces)?;
-        if self.film.as_ref().is_none_or(|film| film.film.extent() != estimator.size) {
+        let fits = self.film.as_ref().is_some_and(|film| film.film.extent() == estimator.size);
+        if let (false, Some(passes)) = (fits, &self.passes) {
             self.device.wait_idle()?;
             (self.film, self.trace_bindings) = (None, None);
-            let passes = (&self.accumulate, &self.select, &self.resolve);
-            self.film = Some(Film::new(&self.device, estimator.size, estimator.is_adaptive(), passes)?);
+            self.film = Some(Film::new(&self.device, estimator.size, passes, &self.resolve)?);
         }
         if let (None, Some(loaded), Some(film)) = (&self.trace_bindings, &self.scene, &self.film) {
             let bind =
@@ -192,11 +191,18 @@ impl Renderer {
         }
     }
 
-    fn load_scene(&mut self, scene: &SceneRef) -> Result<()> {
+    fn compile_passes(&self, constants: [u32; 2], adaptive: bool) -> Result<EstimatorPasses> {
+        let accumulate = Accumulate::new(&self.device, self.shaders.accumulate, constants, &self.tile)?;
+        let select =
+            adaptive.then(|| Select::new(&self.device, self.shaders.select, constants)).transpose()?;
+        Ok(EstimatorPasses { constants, accumulate, select })
+    }
+
+    fn load_scene(&mut self, scene: &SceneRef, constants: [u32; 2]) -> Result<()> {
         self.device.wait_idle()?;
         (self.scene, self.trace_bindings) = (None, None);
         let buffers = SceneBuffers::new(&self.device, &SceneData::new(scene))?;
-        let trace = Trace::new(&self.device, self.shaders.trace, self.constants, &buffers, &self.tile)?;
+        let trace = Trace::new(&self.device, self.shaders.trace, constants, &buffers, &self.tile)?;
         self.tally.forget_scene();
         self.scene = Some(LoadedScene { scene: scene.clone(), buffers, trace });
         Ok(())

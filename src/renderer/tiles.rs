@@ -10,7 +10,7 @@ use crate::vulkan::Recording;
 
 /// Small pictures would otherwise record thousands of passes for one submission.
 const MAX_TILES_PER_SUBMISSION: u32 = 64;
-/// What choosing a pixel costs, in samples traced: it looks at 25.
+/// What choosing a pixel costs, in samples traced: it looks at nine.
 const SELECT_COST: f64 = 1.0;
 
 impl Renderer {
@@ -82,15 +82,16 @@ impl Renderer {
         left: u64,
         whole: bool,
     ) -> Option<Work> {
-        let (scene, film, bindings) = match (&self.scene, &self.film, &self.trace_bindings) {
-            (Some(scene), Some(film), Some(bindings)) => (scene, film, bindings),
-            _ => return None,
+        let (Some(passes), Some(scene), Some(film), Some(bindings)) =
+            (&self.passes, &self.scene, &self.film, &self.trace_bindings)
+        else {
+            return None;
         };
         let Cursor { pass, stage, at } = cursor;
         let (cost, local) = match stage {
             Stage::Trace => (f64::from(pass.sample_count), scene.trace.local_size()),
-            Stage::Accumulate => (accumulate_cost(estimator.jitter), self.accumulate.local_size()),
-            Stage::Select => (SELECT_COST, self.select.local_size()),
+            Stage::Accumulate => (accumulate_cost(estimator.jitter), passes.accumulate.local_size()),
+            Stage::Select => (SELECT_COST, passes.select.as_ref()?.local_size()),
         };
         let whole_film = Pass::whole(0, 1, 1);
         let of_stage = if stage == Stage::Trace { pass } else { whole_film };
@@ -127,14 +128,14 @@ impl Renderer {
                         jitter: estimator.jitter,
                         reach: i32::try_from(reach(estimator.jitter)).unwrap_or(i32::MAX),
                     };
-                    self.accumulate.record(recording, &film.accumulate[list], &push, tile);
+                    passes.accumulate.record(recording, &film.accumulate[list], &push, tile);
                 }
                 Stage::Select => {
                     if at == [0, 0] {
                         recording.clear_buffer(film.adaptive.list(1 - list), Adaptive::LIST_HEADER);
                     }
                     let push = SelectPush { lattice, threshold: estimator.noise_threshold };
-                    self.select.record(recording, &film.select[list], &push, tile);
+                    passes.select.as_ref()?.record(recording, &film.select.as_ref()?[list], &push, tile);
                 }
             }
         }
@@ -163,12 +164,14 @@ impl Renderer {
             _ => {
                 // A sample that strays must be found again by its index, so it travels alone.
                 let wide = reach(estimator.jitter) > 0;
-                let longest = match (wide, estimator.is_adaptive()) {
-                    (true, _) => 1,
-                    (false, true) => schedule::SELECT_EVERY,
-                    (false, false) => u32::MAX,
+                let longest = self.max_batch.min(self.largest_batch);
+                let max_batch = if wide {
+                    1
+                } else if estimator.is_adaptive() {
+                    longest.min(schedule::SELECT_EVERY)
+                } else {
+                    longest
                 };
-                let max_batch = longest.min(self.max_batch).min(self.largest_batch);
                 Pass::whole(self.samples, settings.samples, max_batch)
             }
         }

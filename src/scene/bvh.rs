@@ -14,7 +14,7 @@ use std::time::Duration;
 const WIDTH: usize = 4;
 
 /// The last plane of a node's grid; the first is 0.
-const LAST_PLANE: f64 = 255.0;
+const LAST_PLANE: u8 = u8::MAX;
 
 /// A bounded shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -145,10 +145,10 @@ impl Node {
         let origin = Vec3::from(whole.min);
         let extent = Vec3::from(whole.max).as_dvec3() - origin.as_dvec3();
         // The least steps that reach across.
-        let steps = (extent / LAST_PLANE).max(DVec3::splat(f32::MIN_POSITIVE.into()));
+        let steps = (extent / f64::from(LAST_PLANE)).max(DVec3::splat(f32::MIN_POSITIVE.into()));
         let exponents = steps.to_array().map(|step| step.log2().ceil() as i32);
         // No ray meets a box whose lower planes are its upper ones.
-        let mut planes = [[[u8::MAX; WIDTH], [0; WIDTH]]; 3];
+        let mut planes = [[[LAST_PLANE; WIDTH], [0; WIDTH]]; 3];
         for (child, aabb) in boxes.iter().enumerate() {
             for axis in 0..3 {
                 let place =
