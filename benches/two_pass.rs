@@ -59,7 +59,7 @@ fn measure(device: &Arc<Device>, name: &str) -> Result<()> {
     let accumulated = accumulate.bind(&batch, &film, &adaptive, 0)?;
     let fused = ComputePipeline::new(device, FUSED, &scene.constants(constants))?;
     let front = [Binding::Image(Arc::clone(&film)), Binding::Buffer(Arc::clone(&counters))];
-    let mut bindings = scene.bindings(front);
+    let mut bindings = scene.bindings(&front);
     bindings.extend([adaptive.bind_list(13, 0), tile.binding()]);
     let fused_bindings = BindingSet::new(&fused, &bindings)?;
 

@@ -106,6 +106,14 @@ pub enum Error {
     /// A setting is out of its range.
     #[error("{0}")]
     OutOfRange(String),
+    /// The place to focus on shows the background.
+    #[error("there is nothing to focus on at {x},{y}: it is the background; choose a pixel of an object")]
+    NothingToFocusOn {
+        /// In pixels from the left.
+        x: f32,
+        /// In pixels from the top.
+        y: f32,
+    },
     /// The validation layer spoke.
     #[error("the validation layer gave {0} message(s), printed above; please report them as a bug")]
     Validation(usize),
@@ -136,6 +144,7 @@ impl Error {
             Self::UnknownScene { .. }
             | Self::UnknownFormat(_)
             | Self::OutOfRange(_)
+            | Self::NothingToFocusOn { .. }
             | Self::UnknownDevice { .. } => 2,
             _ => 1,
         }

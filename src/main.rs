@@ -19,9 +19,16 @@ fn main() -> ExitCode {
 fn run(command: Command) -> Result<()> {
     match command {
         Command::View(args) => view(&args),
-        Command::Render(RenderArgs { settings, output, stats, device, quiet }) => {
+        Command::Render(RenderArgs { settings, autofocus, output, stats, device, quiet }) => {
             let settings = output::load(quiet, || settings.of_file())?;
-            output::render(&output::Job { settings, output, stats, device: device.choice(), quiet })
+            output::render(&output::Job {
+                settings,
+                autofocus,
+                output,
+                stats,
+                device: device.choice(),
+                quiet,
+            })
         }
         Command::Verify(args) => {
             output::say(&verify::run(&args.settings.of_proof()?, &args.device.choice())?)

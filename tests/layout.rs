@@ -2,7 +2,7 @@
 
 use std::mem::offset_of;
 use thinlens::gpu_types::*;
-use thinlens::passes::{Accumulate, Resolve, Select, Trace};
+use thinlens::passes::{Accumulate, Pick, Resolve, Select, Trace};
 use thinlens::vulkan::StructLayout;
 
 /// A twin: name, fields with offsets, and size.
@@ -37,6 +37,8 @@ fn twins() -> Vec<Twin> {
         twin!("TracePush", TracePush, [camera, lattice, seed, max_bounces, first_sample, sample_count]),
         twin!("AccumulatePush", AccumulatePush, [lattice, seed, first_sample, jitter, reach]),
         twin!("SelectPush", SelectPush, [lattice, threshold]),
+        twin!("PickPush", PickPush, [camera, extent, position]),
+        twin!("PickedRay", PickedRay, [origin, distance, direction, material]),
         twin!("ResolvePush", ResolvePush, [extent, preview_stride, exposure, count_scale, blue_first]),
     ]
 }
@@ -60,7 +62,7 @@ fn fault(layout: &StructLayout, (name, fields, size): &Twin) -> Option<String> {
 fn every_struct_of_the_shaders_has_its_twin() {
     let twins = twins();
     let mut seen = Vec::new();
-    for shader in [Trace::SHADER, Accumulate::SHADER, Select::SHADER, Resolve::SHADER] {
+    for shader in [Trace::SHADER, Accumulate::SHADER, Select::SHADER, Resolve::SHADER, Pick::SHADER] {
         for layout in shader.interface().structs {
             // The block around a runtime array has the array for its one member.
             let block = layout.members.len() == 1 && layout.members[0].1 == 0;
@@ -77,6 +79,7 @@ fn every_struct_of_the_shaders_has_its_twin() {
             size_of::<AccumulatePush>(),
             size_of::<SelectPush>(),
             size_of::<ResolvePush>(),
+            size_of::<PickPush>(),
         ];
         assert!(sizes.contains(&push), "{}: {push} bytes of push constants", shader.name);
         assert!(push <= 128, "{}: Vulkan promises 128 bytes", shader.name);

@@ -8,7 +8,8 @@ use common::probe::probe;
 use common::{Gpu, prove, settings_of};
 use glam::{DVec2, DVec3, Vec3};
 use thinlens::gpu_types::Camera;
-use thinlens::settings::Estimator;
+use thinlens::scene::{CameraModel, Hole};
+use thinlens::settings::{Estimator, PRESETS};
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
@@ -249,4 +250,125 @@ fn a_pinhole_has_one_ray_for_a_film_position() {
         Ok(format!("{} rays, the same bits at three focal distances", places.len()))
     };
     prove(check, &["focal_point_leaks_into_the_pinhole"]);
+}
+
+/// Catches a hole whose picture stands upright or is mirrored, a film at another distance than the field of
+/// view and `metres_per_unit` say, and a hole of another size: a primary ray starts in the hole and comes
+/// from the film point, which is seen from behind.
+#[test]
+fn rays_of_a_hole_come_from_the_film() {
+    let check = |gpu: &Gpu| -> Result<String> {
+        let (eye, [u, v, w]) = frame();
+        let (mut rays, mut worst) = (0, 0.0_f64);
+        for (size, vfov, metres_per_unit, upright) in [
+            ([33, 21], 65.0, 0.1, false),
+            ([33, 21], 65.0, 0.1, true),
+            ([20, 30], 40.0, 0.001, false),
+            ([640, 360], 90.0, 2.0, true),
+        ] {
+            let mut estimator = slanted(size, vfov, 0.3, 17.0);
+            let film_distance = 0.012 / (vfov.to_radians() / 2.0).tan() / metres_per_unit;
+            let diameter = (0.02 * film_distance) as f32;
+            estimator.model = CameraModel::Hole;
+            estimator.camera.metres_per_unit = metres_per_unit;
+            estimator.hole = Hole { diameter, upright };
+            let places = places(size);
+            for (place, (origin, direction)) in places.iter().zip(primary_rays(gpu, &estimator, &places)) {
+                let hole_point =
+                    f64::from(diameter) / 2.0 * (f64::from(place.disk[0]) * u + f64::from(place.disk[1]) * v);
+                ensure!(
+                    (origin - eye - hole_point).length() < 1e-5 * f64::from(diameter) + 1e-6,
+                    "{place:?} starts beside its point of the hole"
+                );
+                let pixel = 2.0 * film_distance * (vfov.to_radians() / 2.0).tan() / f64::from(size[1]);
+                let [right, down] = [0, 1].map(|axis| {
+                    let at = f64::from(place.pixel[axis]) + 0.5 + f64::from(place.offset[axis]);
+                    (at - f64::from(size[axis]) / 2.0) * pixel
+                });
+                let side = if upright { -1.0 } else { 1.0 };
+                // From the eye, which carries the rounding of its own coordinates.
+                let film_point = side * (right * u - down * v) + film_distance * w;
+                let expected = (hole_point - film_point).normalize();
+                let error = (direction - expected).length();
+                worst = worst.max(error);
+                ensure!(error < 1e-6, "{place:?} leaves along {direction}, not {expected}");
+                rays += 1;
+            }
+        }
+        Ok(format!("{rays} rays within {worst:.1e} rad"))
+    };
+    prove(
+        check,
+        &[
+            "lens_radius_times_1.05",
+            "focal_distance_times_1.02",
+            "picture_upside_down",
+            "picture_mirrored",
+            "half_a_pixel_off",
+            "lens_point_mirrored",
+        ],
+    );
+}
+
+/// Catches f-numbers of a frame that is not 24 mm high, of a focal length that breathes with the focus,
+/// and presets that leave the field of view or change it where they should not.
+#[test]
+fn lenses_have_the_f_numbers_and_fields_of_view_they_are_named_for() {
+    let of = |name: &str| {
+        let mut estimator = slanted([64, 48], 37.0, 0.3, 5.0);
+        estimator.camera.metres_per_unit = 0.1;
+        PRESETS.iter().find(|preset| preset.name == name).expect("a preset").apply(&mut estimator);
+        estimator
+    };
+    // A 24 mm high frame behind a 50 mm lens is 26.99 degrees high.
+    for (name, f_number) in [("50mm-f1.8", 1.8), ("50mm-f1.4", 1.4), ("50mm-f1.2", 1.2)] {
+        let estimator = of(name);
+        let vfov = estimator.camera.vfov_radians.to_degrees();
+        assert!((vfov - 26.991).abs() < 1e-3, "{name}: {vfov} degrees");
+        let millimetres = f64::from(estimator.lens.diameter) * 0.1 * 1000.0;
+        assert!((millimetres - 50.0 / f_number).abs() < 1e-5, "{name}: {millimetres} mm wide");
+        assert!((estimator.f_number() - f_number).abs() < 1e-6, "{name}: f/{}", estimator.f_number());
+        assert!((estimator.lens.focal_distance - 5.0).abs() < 1e-9, "{name} moves the focal plane");
+    }
+    for (name, diameter) in [("eye-2mm", 0.02), ("eye-8mm", 0.08)] {
+        let estimator = of(name);
+        assert!((f64::from(estimator.lens.diameter) - diameter).abs() < 1e-8, "{name}");
+        assert!((estimator.camera.vfov_radians.to_degrees() - 37.0).abs() < 1e-9, "{name} turns the view");
+    }
+    assert_eq!(of("pinhole").model, CameraModel::Pinhole);
+
+    let mut estimator = of("eye-8mm");
+    estimator.set_f_number(2.0).expect("an f-number");
+    // 12 mm / tan(18.5 degrees) = 35.864 mm, half of which in units of 0.1 m.
+    assert!((f64::from(estimator.lens.diameter) - 0.179_32).abs() < 1e-5, "{}", estimator.lens.diameter);
+    for bad in [0.0, -2.0, f64::NAN, f64::INFINITY] {
+        estimator.set_f_number(bad).expect_err("no f-number");
+    }
+}
+
+/// Catches a depth of field that is off by the tolerance, or that ends where it should not: at its limits
+/// the circle of confusion is the tolerance, and focused at the hyperfocal distance it has no far one.
+#[test]
+fn the_depth_of_field_ends_where_the_blur_reaches_the_tolerance() {
+    let mut estimator = slanted([1280, 720], 37.0, 0.3, 5.0);
+    let k = 360.0 / (18.5_f64.to_radians()).tan();
+    for (diameter, focal_distance, tolerance) in [(0.3, 5.0, 2.0), (0.01, 12.0, 0.5), (2.0, 0.7, 30.0)] {
+        (estimator.lens.diameter, estimator.lens.focal_distance) = (diameter, focal_distance);
+        let (camera, lens) = (&estimator.camera, &estimator.lens);
+        let [near, far] = camera.depth_of_field(lens, tolerance, 720);
+        let blur = |depth: f64| {
+            common::circle_of_confusion(f64::from(diameter), f64::from(focal_distance), depth, k)
+        };
+        for (depth, sign) in [(near, -1.0), (far, 1.0)] {
+            assert!((blur(depth) - tolerance).abs() < 1e-6 * tolerance, "{depth}: {} px", blur(depth));
+            let signed = camera.circle_of_confusion(lens, depth, 720);
+            assert!((signed - sign * tolerance).abs() < 1e-6 * tolerance, "{depth}: {signed} px");
+        }
+    }
+    let hyperfocal = estimator.camera.hyperfocal_distance(&estimator.lens, 1.0, 720);
+    estimator.lens.focal_distance = (1.0001 * hyperfocal) as f32;
+    let [near, far] = estimator.camera.depth_of_field(&estimator.lens, 1.0, 720);
+    assert!(far.is_infinite() && (near / hyperfocal - 0.5).abs() < 1e-3, "{near} to {far}");
+    estimator.lens.diameter = 0.0;
+    assert_eq!(estimator.camera.depth_of_field(&estimator.lens, 1.0, 720), [0.0, f64::INFINITY]);
 }

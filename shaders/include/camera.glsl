@@ -15,9 +15,9 @@ struct Camera {
     vec3 eye;
     float lens_radius;
     vec3 u;
-    float inverse_focal_distance;
+    float inverse_focal_distance; // of a hole without a lens: -1 / v, v the film's distance behind it
     vec3 v;
-    float inverse_view_distance; // 1 / k: k is the view plane's distance in pixels
+    float inverse_view_distance; // 1 / k: k is the view plane's distance in pixels; negative: upside down
     vec3 w;
     float jitter; // pixels
 };

@@ -2,7 +2,7 @@
 //! renderer.
 
 use crate::error::{Error, Result};
-use crate::renderer::{Pace, Progress, Renderer};
+use crate::renderer::{Pace, Picked, Progress, Renderer};
 use crate::settings::Settings;
 use crate::vulkan::{
     Acquired, AcquiredImage, Commands, Device, FRAMES_IN_FLIGHT, Instance, Surface, Swapchain,
@@ -10,6 +10,9 @@ use crate::vulkan::{
 use imgui_rs_vulkan_renderer::{DynamicRendering, Options};
 use std::sync::Arc;
 use winit::window::Window;
+
+/// What the device says to a question of [`Graphics::draw`]: nothing, where the scene has changed since.
+pub(super) struct Answer(pub(super) Option<Picked>);
 
 /// The order is the order of dropping: imgui's renderer keeps raw handles of the device, and the
 /// surface must go before the window.
@@ -19,6 +22,8 @@ pub(super) struct Graphics {
     renderer: Renderer,
     frames: [Commands; FRAMES_IN_FLIGHT],
     next_frame: usize,
+    /// Whether a frame has a question to answer.
+    asked: [bool; FRAMES_IN_FLIGHT],
     surface: Arc<Surface>,
     device: Arc<Device>,
     window: Arc<Window>,
@@ -35,6 +40,7 @@ impl Graphics {
             renderer: Renderer::new(&device)?,
             frames: [Commands::new(&device)?, Commands::new(&device)?],
             next_frame: 0,
+            asked: [false; FRAMES_IN_FLIGHT],
             surface,
             device,
             window: Arc::clone(window),
@@ -98,12 +104,16 @@ impl Graphics {
 
     /// Waits until the next frame's commands are free, and takes in what they measured. With `all`, for
     /// every frame under way: then none stands between what the hand does next and the screen.
-    pub(super) fn wait_for_frame(&mut self, all: bool) -> Result<()> {
+    ///
+    /// Gives the answer to what was asked in that frame, if anything.
+    pub(super) fn wait_for_frame(&mut self, all: bool) -> Result<Option<Answer>> {
         for frame in self.frames.iter().filter(|_| all) {
             frame.wait()?;
         }
         self.frames[self.next_frame].wait()?;
-        self.renderer.collect(self.next_frame)
+        self.renderer.collect(self.next_frame)?;
+        let asked = std::mem::take(&mut self.asked[self.next_frame]);
+        Ok(asked.then(|| Answer(self.renderer.picked(self.next_frame))))
     }
 
     /// The next image to draw to. None where the window has changed or is hidden.
@@ -122,12 +132,13 @@ impl Graphics {
     }
 
     /// Traces for as long as `pace` says, and shows the picture on `image` with imgui on top.
-    /// [`Self::wait_for_frame`] comes first.
+    /// [`Self::wait_for_frame`] comes first. `question`: a place of the picture to ask about.
     pub(super) fn draw(
         &mut self,
         image: &AcquiredImage,
         imgui: &mut imgui::Context,
         pace: Pace,
+        question: Option<[f32; 2]>,
     ) -> Result<()> {
         let panel = imgui.render();
         let Some(swapchain) = &mut self.swapchain else {
@@ -140,6 +151,10 @@ impl Graphics {
             self.renderer.record(&mut recording, frame, pace);
         }
         self.renderer.record_resolve(&mut recording);
+        if let Some(position) = question {
+            self.renderer.record_pick(&mut recording, frame, position)?;
+            self.asked[frame] = true;
+        }
 
         if let Some(picture) = self.renderer.picture() {
             swapchain.begin_drawing(&mut recording, image, picture);

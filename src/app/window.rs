@@ -1,8 +1,9 @@
 //! The window and its events.
 
 use super::Options;
-use super::graphics::Graphics;
-use super::ui::{Panel, Status};
+use super::focus::Focus;
+use super::graphics::{Answer, Graphics};
+use super::ui::{Action, Panel, Status};
 use crate::error::{Error, Result};
 use crate::renderer::Pace;
 use crate::vulkan::Instance;
@@ -38,6 +39,7 @@ struct Open {
     platform: WinitPlatform,
     imgui: imgui::Context,
     panel: Panel,
+    focus: Focus,
     window: Arc<Window>,
     last_frame: Instant,
     /// When the first event came that no frame has shown yet.
@@ -48,6 +50,8 @@ struct Open {
     shown: (u32, u32),
     /// Lens diameter, focal distance and jitter that were reported last.
     state: [f32; 3],
+    /// Likewise, camera model and field of view in degrees.
+    view: String,
     occluded: bool,
 }
 
@@ -157,6 +161,7 @@ impl Open {
             platform,
             imgui,
             panel: Panel::new(options.settings.clone(), options.scene.clone()),
+            focus: Focus::default(),
             window,
             last_frame: Instant::now(),
             unshown_since: None,
@@ -164,6 +169,7 @@ impl Open {
             dragging: false,
             shown: (0, 0),
             state: [f32::NAN; 3],
+            view: String::new(),
             occluded: false,
         };
         open.load_fonts();
@@ -209,7 +215,10 @@ impl Open {
         };
         log::trace!("frame");
         self.frames_to_draw = self.frames_to_draw.saturating_sub(1);
-        self.graphics.wait_for_frame(self.dragging)?;
+        let answer = self.graphics.wait_for_frame(self.dragging)?;
+        if let Some(Answer(picked)) = answer {
+            self.focus.answer(picked, &self.panel.settings.estimator.lens);
+        }
         let Some(image) = self.graphics.acquire()? else {
             self.frames_to_draw += 1;
             return Ok(());
@@ -223,9 +232,20 @@ impl Open {
             log::warn!("pointer: {error}");
         }
         let ui = self.imgui.new_frame();
-        let status = Status { progress: self.graphics.progress(), device: self.graphics.device_name() };
-        self.panel.draw(ui, &status);
-        self.dragging = ui.is_any_item_active();
+        let status = Status {
+            progress: self.graphics.progress(),
+            device: self.graphics.device_name(),
+            picked: self.focus.under_pointer(),
+        };
+        let action = self.panel.draw(ui, &status);
+        if let Some(Action::Autofocus) = action {
+            self.focus.send_to(size.map(|extent| 0.5 * extent as f32));
+        }
+        let lens = &mut self.panel.settings.estimator.lens;
+        self.focus.take_input(ui, lens);
+        self.focus.advance(lens);
+        self.focus.draw(ui);
+        self.dragging = ui.is_any_item_active() || self.focus.is_gliding();
         if ui.io().want_text_input {
             self.frames_to_draw = self.frames_to_draw.max(1); // the caret blinks
         }
@@ -237,11 +257,15 @@ impl Open {
             self.panel.refuse(&error);
             self.graphics.set(&self.panel.settings)?;
         }
-        self.panel.accept();
+        let restarted = self.panel.accept();
         let finished_before = self.graphics.finished();
         let pace =
             Pace { budget: if self.dragging { DRAGGING_BUDGET } else { RESTING_BUDGET }, preview: true };
-        self.graphics.draw(&image, &mut self.imgui, pace)?;
+        let question = self.focus.question(restarted);
+        self.graphics.draw(&image, &mut self.imgui, pace, question)?;
+        if self.focus.is_busy() {
+            self.frames_to_draw = self.frames_to_draw.max(1);
+        }
         if !finished_before && self.graphics.finished() {
             // What was just recorded is on the screen; the panel's figures come a frame later.
             self.frames_to_draw = self.frames_to_draw.max(FRAMES_AFTER_EVENT);
@@ -259,6 +283,11 @@ impl Open {
         if state != self.state {
             log::debug!("lens {} {} jitter {}", state[0], state[1], state[2]);
             self.state = state;
+        }
+        let view = format!("{:?} {:.3}", estimator.model, estimator.camera.vfov_radians.to_degrees());
+        if view != self.view {
+            log::debug!("view {view}");
+            self.view = view;
         }
         let shown = (self.graphics.progress().samples, self.panel.settings.samples);
         if shown != self.shown {

@@ -6,6 +6,7 @@ mod scene;
 
 pub use scene::{SceneData, Tree};
 
+use crate::scene::{CameraModel, Hole};
 use crate::settings::{Estimator, Sampler};
 use bytemuck::{Pod, Zeroable};
 
@@ -186,6 +187,25 @@ pub struct ResolvePush {
     pub blue_first: u32,
 }
 
+/// `PickPush` of pick.comp.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct PickPush {
+    pub camera: Camera,
+    pub extent: [u32; 2],
+    pub position: [f32; 2],
+}
+
+/// `PickedRay` of pick.comp.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct PickedRay {
+    pub origin: [f32; 3],
+    pub distance: f32,
+    pub direction: [f32; 3],
+    pub material: u32,
+}
+
 /// The specialization constants 0 and 1: `SAMPLER` of sampling.glsl, `IS_ADAPTIVE` of adaptive.glsl.
 pub fn estimator_constants(estimator: &Estimator) -> [u32; 2] {
     [sampler_constant(estimator.sampler), estimator.is_adaptive().into()]
@@ -218,15 +238,26 @@ impl Counters {
 impl Camera {
     /// The camera as the shaders want it. Derived in f64, rounded once.
     pub fn new(estimator: &Estimator) -> Self {
-        let frame = estimator.camera.frame();
-        let view_distance = estimator.camera.view_distance_pixels(estimator.size[1]);
+        let camera = &estimator.camera;
+        let frame = camera.frame();
+        let view_distance = camera.view_distance_pixels(estimator.size[1]);
+        // A film point s at v behind a hole sees along l - s, and s / v is -q of the view plane, or q where
+        // the picture is turned upright: the lens equation with -v for the focal distance.
+        let (diameter, inverse_focal_distance, turned) = match estimator.model {
+            CameraModel::ThinLens => (estimator.lens.diameter, estimator.lens.focal_distance.recip(), false),
+            CameraModel::Pinhole => (0.0, 0.0, false),
+            CameraModel::Hole => {
+                let Hole { diameter, upright } = estimator.hole;
+                (diameter, -camera.film_distance().recip() as f32, !upright)
+            }
+        };
         Self {
-            eye: estimator.camera.eye.to_array(),
-            lens_radius: 0.5 * estimator.lens.diameter,
+            eye: camera.eye.to_array(),
+            lens_radius: 0.5 * diameter,
             u: frame.u().as_vec3().to_array(),
-            inverse_focal_distance: estimator.lens.focal_distance.recip(),
+            inverse_focal_distance,
             v: frame.v().as_vec3().to_array(),
-            inverse_view_distance: view_distance.recip() as f32,
+            inverse_view_distance: (if turned { -view_distance } else { view_distance }).recip() as f32,
             w: frame.w().as_vec3().to_array(),
             jitter: estimator.jitter,
         }

@@ -5,7 +5,7 @@ use super::{PictureFormat, Stats, say, write_exr, write_png};
 use crate::error::{Error, Result};
 use crate::pending_file::PendingFile;
 use crate::renderer::Renderer;
-use crate::settings::{DeviceChoice, Settings};
+use crate::settings::{DeviceChoice, Place, Settings};
 use crate::vulkan::{Device, Instance};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -15,6 +15,8 @@ use std::sync::Arc;
 pub struct Job {
     /// What to render.
     pub settings: Settings,
+    /// Where the picture is to be in focus, if not where the settings say.
+    pub autofocus: Option<Place>,
     /// Where to: `.png` for 8-bit sRGB, `.exr` for linear values and counts.
     pub output: PathBuf,
     /// Where to write [`Stats`], if anywhere.
@@ -48,10 +50,33 @@ pub fn render(job: &Job) -> Result<()> {
 pub fn render_instead(settings: Settings, scene: &str, device: DeviceChoice, why: &str) -> Result<()> {
     eprintln!("no display for the viewer ({why}); rendering the scene to a file instead");
     let output = std::env::current_dir().unwrap_or_default().join("thinlens.png");
-    render(&Job { settings, output: output.clone(), stats: None, device, quiet: false })?;
+    render(&Job { settings, autofocus: None, output: output.clone(), stats: None, device, quiet: false })?;
     say(&format!("the picture is {}", output.display()))?;
     let program = std::env::args().next().unwrap_or_else(|| "thinlens".into());
     say(&format!("next, try: {program} render {scene} --lens-diameter 0 -o pinhole.png"))
+}
+
+/// The settings with the focal plane at the depth of what lies there.
+fn focus(renderer: &mut Renderer, settings: &Settings, place: Place) -> Result<Settings> {
+    let size = settings.estimator.size.map(|extent| extent as f32);
+    let position = match place {
+        Place::Centre => size.map(|extent| 0.5 * extent),
+        Place::At(position) => position,
+    };
+    let [x, y] = position;
+    if !(0.0..size[0]).contains(&x) || !(0.0..size[1]).contains(&y) {
+        let [width, height] = size;
+        return Err(Error::OutOfRange(format!(
+            "autofocus is at {x},{y}, but must be within the picture's {width}x{height} pixels"
+        )));
+    }
+    let Some(surface) = renderer.pick(position)?.and_then(|picked| picked.surface) else {
+        return Err(Error::NothingToFocusOn { x, y });
+    };
+    let mut focused = settings.clone();
+    focused.estimator.lens.focal_distance = surface.depth as f32;
+    focused.check()?;
+    Ok(focused)
 }
 
 fn render_on(instance: &Arc<Instance>, job: &Job, format: PictureFormat) -> Result<()> {
@@ -62,9 +87,14 @@ fn render_on(instance: &Arc<Instance>, job: &Job, format: PictureFormat) -> Resu
     let size @ [width, height] = job.settings.estimator.size;
     let mut renderer = Renderer::new(&device)?;
     renderer.set(&job.settings)?;
+    let settings = match job.autofocus {
+        Some(place) => focus(&mut renderer, &job.settings, place)?,
+        None => job.settings.clone(),
+    };
+    renderer.set(&settings)?;
 
     let pixels = u64::from(width) * u64::from(height);
-    let mut display = ProgressDisplay::new(job.settings.samples, pixels, job.quiet);
+    let mut display = ProgressDisplay::new(settings.samples, pixels, job.quiet);
     renderer.render(|progress| display.show(progress.samples, progress.traced))?;
     let seconds = display.finish().as_secs_f64();
 
@@ -74,9 +104,11 @@ fn render_on(instance: &Arc<Instance>, job: &Job, format: PictureFormat) -> Resu
     }
     let progress = renderer.progress();
     let stats = Stats {
-        scene: job.settings.estimator.scene.name.clone(),
+        scene: settings.estimator.scene.name.clone(),
         width,
         height,
+        lens_diameter: settings.estimator.lens.diameter,
+        focal_distance: settings.estimator.lens.focal_distance,
         samples_per_pixel: progress.samples,
         mean_samples_per_pixel: progress.traced as f64 / pixels as f64,
         samples: progress.traced,
@@ -97,7 +129,7 @@ fn render_on(instance: &Arc<Instance>, job: &Job, format: PictureFormat) -> Resu
         );
     }
     if !job.quiet {
-        let samples = if job.settings.estimator.is_adaptive() {
+        let samples = if settings.estimator.is_adaptive() {
             format!(
                 "{:.1} samples per pixel, {} at most",
                 stats.mean_samples_per_pixel, stats.samples_per_pixel

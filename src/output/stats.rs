@@ -13,6 +13,10 @@ pub struct Stats {
     pub width: u32,
     /// Pixels.
     pub height: u32,
+    /// Scene units.
+    pub lens_diameter: f32,
+    /// Scene units, along the axis.
+    pub focal_distance: f32,
     /// Samples traced for each pixel, or for those that went on longest where pixels stop by themselves.
     pub samples_per_pixel: u32,
     /// Samples traced for a pixel on average.

@@ -1,10 +1,11 @@
 //! The passes, in the order of the data: a pipeline and its `record()` each. Trace, accumulate and resolve
-//! make every picture; select belongs to adaptive ones. A pass, its shader, its file and its debug label
+//! make every picture; select belongs to adaptive ones, and pick says what lies under a pixel. A pass, its shader, its file and its debug label
 //! share one name.
 
 mod accumulate;
 mod adaptive;
 mod blue_noise;
+mod pick;
 mod resolve;
 mod select;
 mod trace;
@@ -12,6 +13,7 @@ mod trace;
 pub use accumulate::Accumulate;
 pub use adaptive::Adaptive;
 pub use blue_noise::BlueNoiseTile;
+pub use pick::Pick;
 pub use resolve::Resolve;
 pub use select::Select;
 pub use trace::{SceneBuffers, Trace};
@@ -29,6 +31,8 @@ pub struct Shaders {
     pub select: Shader,
     /// Pass 3.
     pub resolve: Shader,
+    /// Beside them.
+    pub pick: Shader,
 }
 
 impl Default for Shaders {
@@ -38,6 +42,7 @@ impl Default for Shaders {
             accumulate: Accumulate::SHADER,
             select: Select::SHADER,
             resolve: Resolve::SHADER,
+            pick: Pick::SHADER,
         }
     }
 }

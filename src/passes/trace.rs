@@ -117,12 +117,12 @@ impl SceneBuffers {
         if self.reflects { 1 + max_bounces } else { 1 }
     }
 
-    /// Every binding of a shader that uses `shaders/include/scene.glsl`: the two resources that it
+    /// Every binding of a shader that uses `shaders/include/scene.glsl`: the one or two resources that it
     /// works on, and the scene's buffers.
-    pub fn bindings(&self, front: [Binding; 2]) -> Vec<(u32, Binding)> {
+    pub fn bindings(&self, front: &[Binding]) -> Vec<(u32, Binding)> {
         let scene = self.buffers.iter().map(|buffer| Binding::Buffer(Arc::clone(buffer)));
         let tree = self.tree.iter().map(|buffer| Binding::Texels(Arc::clone(buffer)));
-        (0..).zip(front.into_iter().chain(scene).chain(tree)).collect()
+        (0..).zip(front.iter().cloned()).chain((2..).zip(scene.chain(tree))).collect()
     }
 
     /// The specialization constants: the two of the estimator, and those of
@@ -170,7 +170,7 @@ impl Trace {
         list: usize,
     ) -> Result<BindingSet> {
         let front = [Binding::Image(Arc::clone(batch)), Binding::Buffer(Arc::clone(counters))];
-        let mut bindings = scene.bindings(front);
+        let mut bindings = scene.bindings(&front);
         bindings.extend([adaptive.bind_list(13, list), adaptive.bind_batch_moments(), self.tile.binding()]);
         BindingSet::new(&self.pipeline, &bindings)
     }

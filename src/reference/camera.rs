@@ -1,6 +1,8 @@
-//! The thin-lens camera: K. Suffern, *Ray Tracing from the Ground Up*, chapter 10.
+//! The thin-lens camera: K. Suffern, *Ray Tracing from the Ground Up*, chapter 10. And the camera that
+//! has a hole instead of a lens.
 
 use super::Ray;
+use crate::scene::CameraModel;
 use crate::settings::Estimator;
 use glam::DVec3;
 
@@ -14,8 +16,21 @@ pub(super) struct Projection {
     size: [f64; 2],
     /// Half the film's height at distance one.
     half_height: f64,
-    lens_radius: f64,
-    focal_distance: f64,
+    opening: Opening,
+}
+
+/// What light comes in through.
+enum Opening {
+    Lens {
+        radius: f64,
+        focal_distance: f64,
+    },
+    /// With the film behind it.
+    Hole {
+        radius: f64,
+        film_distance: f64,
+        upright: bool,
+    },
 }
 
 impl Projection {
@@ -30,23 +45,45 @@ impl Projection {
             w,
             size: estimator.size.map(f64::from),
             half_height: (camera.vfov_radians / 2.0).tan(),
-            lens_radius: f64::from(estimator.lens.diameter) / 2.0,
-            focal_distance: f64::from(estimator.lens.focal_distance),
+            opening: match estimator.model {
+                CameraModel::ThinLens => Opening::Lens {
+                    radius: f64::from(estimator.lens.diameter) / 2.0,
+                    focal_distance: f64::from(estimator.lens.focal_distance),
+                },
+                CameraModel::Pinhole => Opening::Lens { radius: 0.0, focal_distance: 1.0 },
+                CameraModel::Hole => Opening::Hole {
+                    radius: f64::from(estimator.hole.diameter) / 2.0,
+                    film_distance: 0.012 / (camera.vfov_radians / 2.0).tan() / camera.metres_per_unit,
+                    upright: estimator.hole.upright,
+                },
+            },
         }
     }
 
     /// The ray from the lens point `disk` (of the unit disk) through the point where the centre ray
-    /// of the film position meets the focal plane.
+    /// of the film position meets the focal plane. Without a lens: from the film position through that
+    /// point of the hole, where it starts.
     pub(super) fn primary_ray(&self, pixel: [u32; 2], offset: [f64; 2], disk: [f64; 2]) -> Ray {
         let [width, height] = self.size;
         let x = f64::from(pixel[0]) + 0.5 + offset[0];
         let y = f64::from(pixel[1]) + 0.5 + offset[1];
         // The view plane at distance one: y from +half_height at the top to -half_height.
         let pixel_size = 2.0 * self.half_height / height;
-        let centre_ray =
-            (x - width / 2.0) * pixel_size * self.u - (y - height / 2.0) * pixel_size * self.v - self.w;
-        let focus = self.eye + self.focal_distance * centre_ray;
-        let origin = self.eye + self.lens_radius * (disk[0] * self.u + disk[1] * self.v);
-        Ray { origin, direction: (focus - origin).normalize() }
+        let across = (x - width / 2.0) * pixel_size * self.u - (y - height / 2.0) * pixel_size * self.v;
+        let on_disk = disk[0] * self.u + disk[1] * self.v;
+        match self.opening {
+            Opening::Lens { radius, focal_distance } => {
+                let focus = self.eye + focal_distance * (across - self.w);
+                let origin = self.eye + radius * on_disk;
+                Ray { origin, direction: (focus - origin).normalize() }
+            }
+            Opening::Hole { radius, film_distance, upright } => {
+                // Seen from behind, the film is a window: what is at its right was at the left.
+                let across = if upright { -across } else { across };
+                let film_point = self.eye + film_distance * (across + self.w);
+                let origin = self.eye + radius * on_disk;
+                Ray { origin, direction: (origin - film_point).normalize() }
+            }
+        }
     }
 }

@@ -5,19 +5,22 @@
 
 mod film;
 mod headless;
+mod pick;
 pub mod schedule;
 mod tally;
 mod tiles;
 
+pub use pick::{Picked, Surface};
 pub use tally::Progress;
 
 use crate::error::{Error, Result};
 use crate::gpu_types::{Counters, ResolvePush, SceneData, estimator_constants};
-use crate::passes::{Accumulate, BlueNoiseTile, Resolve, SceneBuffers, Select, Shaders, Trace};
+use crate::passes::{Accumulate, BlueNoiseTile, Pick, Resolve, SceneBuffers, Select, Shaders, Trace};
 use crate::scene::SceneRef;
 use crate::settings::{Overlay, Settings};
-use crate::vulkan::{BindingSet, Buffer, Device, Image, Recording, Residence, SOFTWARE};
+use crate::vulkan::{BindingSet, Buffer, Device, FRAMES_IN_FLIGHT, Image, Recording, Residence, SOFTWARE};
 use film::Film;
+use pick::Question;
 use schedule::{Cursor, MAX_BATCH, reach};
 use std::sync::Arc;
 use std::time::Duration;
@@ -57,6 +60,8 @@ pub struct Renderer {
     /// How the picture was resolved, and whether with holes, unless the film has changed since.
     resolved: Option<(ResolvePush, bool)>,
     blue_first: bool,
+    /// By the frame in flight that will answer.
+    questions: [Option<Question>; FRAMES_IN_FLIGHT],
     max_batch: u32,
     /// What the scene's loops allow.
     largest_batch: u32,
@@ -76,6 +81,8 @@ struct LoadedScene {
     scene: SceneRef,
     buffers: SceneBuffers,
     trace: Trace,
+    /// Once something was asked of it.
+    pick: Option<Pick>,
 }
 
 impl Renderer {
@@ -111,6 +118,7 @@ impl Renderer {
             needs_clear: false,
             resolved: None,
             blue_first: false,
+            questions: pick::no_questions(),
             max_batch: MAX_BATCH,
             largest_batch: 1,
             device: Arc::clone(device),
@@ -204,7 +212,7 @@ impl Renderer {
         let buffers = SceneBuffers::new(&self.device, &SceneData::new(scene))?;
         let trace = Trace::new(&self.device, self.shaders.trace, constants, &buffers, &self.tile)?;
         self.tally.forget_scene();
-        self.scene = Some(LoadedScene { scene: scene.clone(), buffers, trace });
+        self.scene = Some(LoadedScene { scene: scene.clone(), buffers, trace, pick: None });
         Ok(())
     }
 

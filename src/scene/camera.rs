@@ -1,4 +1,4 @@
-//! The camera and its thin lens.
+//! The camera, its thin lens, and its hole.
 
 use glam::{DMat3, DVec3, Vec3};
 
@@ -13,6 +13,20 @@ pub struct Camera {
     pub up: Vec3,
     /// The angle from the picture's lower to its upper edge, seen from the eye.
     pub vfov_radians: f64,
+    /// The length in metres of one scene unit.
+    pub metres_per_unit: f64,
+}
+
+/// What forms the picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum CameraModel {
+    /// A thin lens: [`Lens`].
+    #[default]
+    ThinLens,
+    /// An ideal pinhole: everything is sharp.
+    Pinhole,
+    /// A hole in a box and no lens: [`Hole`].
+    Hole,
 }
 
 /// The thin lens: Suffern, chapter 10. Lengths are in scene units.
@@ -22,6 +36,15 @@ pub struct Lens {
     pub diameter: f32,
     /// Distance of the focal plane along the optical axis.
     pub focal_distance: f32,
+}
+
+/// The hole of a physical pinhole camera. The film stands [`Camera::film_distance`] behind it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hole {
+    /// Diameter in scene units.
+    pub diameter: f32,
+    /// Whether the picture is turned upright; on the film it is upside down.
+    pub upright: bool,
 }
 
 /// The camera's right-handed orthonormal frame: u right, v up, and the view along -w.

@@ -6,7 +6,8 @@ use super::material_format::{LightColor, MaterialList, MatteTable, MirrorTable, 
 use super::mesh::{Mesh, Placement};
 use super::number::{Count, Extent, NonNegative, Positive, Rgb, Vector};
 use super::{
-    Aabb, Background, Camera, Lens, Light, LightKind, Plane, Scene, Shaded, Sphere, Triangle, VFOV_DEGREES,
+    Aabb, Background, Camera, CameraModel, Hole, Lens, Light, LightKind, Plane, Scene, Shaded, Sphere,
+    Triangle, VFOV_DEGREES,
 };
 use glam::Vec3;
 use serde::Deserialize;
@@ -59,8 +60,25 @@ struct CameraTable {
     vfov_degrees: Option<Positive>,
     view_distance: Option<Positive>,
     pixel_size: Option<Positive>,
-    lens_diameter: NonNegative,
+    #[serde(default = "one")]
+    metres_per_unit: Positive,
+    #[serde(default)]
+    model: ModelName,
+    lens_diameter: Option<NonNegative>,
+    f_number: Option<Positive>,
     focal_distance: Positive,
+    hole_diameter: Option<NonNegative>,
+    #[serde(default)]
+    upright: bool,
+}
+
+#[derive(Deserialize, Default, Clone, Copy)]
+#[serde(rename_all = "kebab-case")]
+enum ModelName {
+    #[default]
+    ThinLens,
+    Pinhole,
+    Hole,
 }
 
 #[derive(Deserialize)]
@@ -165,7 +183,7 @@ impl SceneFile {
     /// Files that the scene names lie in `folder`, unless their paths say otherwise.
     pub(super) fn into_scene(self, name: &str, folder: &Path) -> Result<Scene, Fault> {
         let size = [self.size[0].0, self.size[1].0];
-        let (camera, lens) = camera(&self.camera, size)?;
+        let View { camera, model, lens, hole } = camera(&self.camera, size)?;
         let background = background(self.background.as_ref())?;
         let ambient = self.ambient.as_ref().map_or(Vec3::ZERO, LightColor::radiance);
         let lights = self.lights()?;
@@ -178,13 +196,16 @@ impl SceneFile {
         let mut scene = Scene {
             name: name.to_owned(),
             camera,
+            model,
             lens,
+            hole,
             size,
             max_bounces: self.max_bounces.0,
             background,
             ambient,
             lights,
             materials: Vec::new(),
+            material_names: Vec::new(),
             spheres: Vec::new(),
             boxes: Vec::new(),
             triangles: Vec::new(),
@@ -219,7 +240,7 @@ impl SceneFile {
         }
         let of_mesh = |table: &MeshTable| table.material.as_ref().map(|name| list.find(name)).transpose();
         let of_meshes: Vec<Option<u32>> = self.mesh.iter().map(of_mesh).collect::<Result<_, _>>()?;
-        scene.materials = list.materials;
+        (scene.materials, scene.material_names) = (list.materials, list.names);
         for (table, material) in self.mesh.iter().zip(of_meshes) {
             table
                 .add_to(&mut scene, folder, material)
@@ -256,7 +277,7 @@ impl MeshTable {
     }
 }
 
-fn camera(table: &Spanned<CameraTable>, size: [u32; 2]) -> Result<(Camera, Lens), Fault> {
+fn camera(table: &Spanned<CameraTable>, size: [u32; 2]) -> Result<View, Fault> {
     let span = table;
     let table = table.get_ref();
     let vfov_radians = match (&table.vfov_degrees, &table.view_distance, &table.pixel_size) {
@@ -275,12 +296,35 @@ fn camera(table: &Spanned<CameraTable>, size: [u32; 2]) -> Result<(Camera, Lens)
         let message = format!("a vertical field of view of {degrees} degrees must be from {low} to {high}");
         return Err(fault(span, &message));
     }
-    let camera = Camera { eye: table.eye.0, look_at: table.look_at.0, up: table.up.0, vfov_radians };
+    let (eye, look_at, up) = (table.eye.0, table.look_at.0, table.up.0);
+    let camera = Camera { eye, look_at, up, vfov_radians, metres_per_unit: table.metres_per_unit.f64() };
     if let Some(message) = camera.fault() {
         return Err(fault(span, message));
     }
-    let lens = Lens { diameter: table.lens_diameter.0, focal_distance: table.focal_distance.f32() };
-    Ok((camera, lens))
+    let diameter = match (&table.lens_diameter, &table.f_number) {
+        (Some(diameter), None) => diameter.0,
+        (None, Some(f_number)) => camera.diameter_of_f_number(f_number.f64()) as f32,
+        _ => return Err(fault(span, "the camera needs either lens_diameter or f_number")),
+    };
+    let hole = table.hole_diameter.as_ref().map_or(camera.default_hole_diameter(), |diameter| diameter.0);
+    Ok(View {
+        camera,
+        model: match table.model {
+            ModelName::ThinLens => CameraModel::ThinLens,
+            ModelName::Pinhole => CameraModel::Pinhole,
+            ModelName::Hole => CameraModel::Hole,
+        },
+        lens: Lens { diameter, focal_distance: table.focal_distance.f32() },
+        hole: Hole { diameter: hole, upright: table.upright },
+    })
+}
+
+/// What the camera's table says.
+struct View {
+    camera: Camera,
+    model: CameraModel,
+    lens: Lens,
+    hole: Hole,
 }
 
 fn background(table: Option<&Spanned<BackgroundTable>>) -> Result<Background, Fault> {

@@ -119,6 +119,7 @@ impl LightColor {
 #[derive(Default)]
 pub(super) struct MaterialList {
     pub(super) materials: Vec<Material>,
+    pub(super) names: Vec<String>,
     index: BTreeMap<String, u32>,
 }
 
@@ -132,6 +133,7 @@ impl MaterialList {
                 return Err(fault(&name, &message));
             }
             self.materials.push(table.into());
+            self.names.push(name.get_ref().clone());
         }
         Ok(())
     }

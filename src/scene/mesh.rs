@@ -153,16 +153,17 @@ impl Mesh {
 
     /// Adds the materials that are needed, and gives the scene's index for the file's.
     fn add_materials(&self, scene: &mut Scene, material: Option<u32>) -> impl Fn(Option<u32>) -> u32 + use<> {
-        let mut add = |material: Material| {
-            scene.materials.push(material);
-            u32::try_from(scene.materials.len() - 1).unwrap_or(u32::MAX)
-        };
         let matte = |color| Material { color, ka: 1.0, kd: 1.0, ..Material::default() };
-        let default = material.unwrap_or_else(|| add(CLAY));
+        let default = material.unwrap_or_else(|| scene.add_material("clay", CLAY));
         let own: Vec<u32> = match material {
             Some(_) => Vec::new(),
             None => {
-                self.colors.iter().map(|color| color.map_or(default, |color| add(matte(color)))).collect()
+                let named = self.obj.materials.iter().zip(&self.colors);
+                named
+                    .map(|(name, color)| {
+                        color.map_or(default, |color| scene.add_material(name, matte(color)))
+                    })
+                    .collect()
             }
         };
         move |index| index.and_then(|index| own.get(index as usize).copied()).unwrap_or(default)

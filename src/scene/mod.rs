@@ -11,15 +11,17 @@ mod material_format;
 mod mesh;
 mod number;
 mod obj;
+mod optics;
 mod shape;
 mod stage;
 
 pub use builtin::{BUILTINS, Builtin};
 pub use bvh::{Bounded, Bvh, Node, Record};
-pub use camera::{Camera, Frame, Lens};
+pub use camera::{Camera, CameraModel, Frame, Hole, Lens};
 pub use file::load;
 pub use light::{Background, Light, LightKind};
 pub use material::{Checker, Material};
+pub use optics::{FRAME_HEIGHT_MM, vfov_of_focal_length};
 pub use shape::{Aabb, Plane, Shaded, Sphere, Triangle};
 
 use glam::Vec3;
@@ -44,8 +46,12 @@ pub struct Scene {
     pub name: String,
     /// Where the picture is taken from.
     pub camera: Camera,
-    /// Through what.
+    /// What forms the picture.
+    pub model: CameraModel,
+    /// The thin lens.
     pub lens: Lens,
+    /// The hole of a camera without a lens.
+    pub hole: Hole,
     /// The picture's size in pixels, unless another is asked for.
     pub size: [u32; 2],
     /// How many reflections are followed, unless another number is asked for.
@@ -58,6 +64,8 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// Materials, which shapes name by index.
     pub materials: Vec<Material>,
+    /// What each of them is called.
+    pub material_names: Vec<String>,
     /// Spheres.
     pub spheres: Vec<Shaded<Sphere>>,
     /// Axis-aligned boxes.
@@ -66,6 +74,15 @@ pub struct Scene {
     pub triangles: Vec<Shaded<Triangle>>,
     /// Infinite planes.
     pub planes: Vec<Shaded<Plane>>,
+}
+
+impl Scene {
+    /// Adds a material, and gives its index.
+    fn add_material(&mut self, name: &str, material: Material) -> u32 {
+        self.materials.push(material);
+        self.material_names.push(name.to_owned());
+        u32::try_from(self.materials.len() - 1).unwrap_or(u32::MAX)
+    }
 }
 
 /// A loaded scene, shared. Two are equal when they are the same loading, whatever they hold.

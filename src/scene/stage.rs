@@ -1,7 +1,9 @@
 //! A scene around a lone mesh: on a ground, framed, lit, and focused on its nearest point.
 
 use super::mesh::{Mesh, Placement};
-use super::{Background, Camera, Checker, Lens, Light, LightKind, Material, Plane, Scene, Shaded};
+use super::{
+    Background, Camera, CameraModel, Checker, Hole, Lens, Light, LightKind, Material, Plane, Scene, Shaded,
+};
 use crate::error::Result;
 use glam::{DVec3, Vec3};
 use std::ops::RangeInclusive;
@@ -16,6 +18,8 @@ const FILL: f64 = 0.78;
 const FAR_BLUR: f64 = 0.025;
 /// The widest lens, as a share of the focal distance: meshes without depth would ask for any.
 const WIDEST_LENS: f64 = 0.08;
+/// The lens's f-number.
+const F_NUMBER: f64 = 2.0;
 /// Edge of the ground's squares, as a share of the box's diagonal.
 const SQUARE: f64 = 0.2;
 /// The ground lies below the mesh by this share of the diagonal, for a flat mesh would else be in it.
@@ -47,17 +51,19 @@ pub(super) fn around(mesh: &Mesh, name: &str) -> Result<Scene> {
     let placement = Placement::new(1.0, DVec3::ZERO, DVec3::Y * lowest - foot);
 
     let camera = camera(DVec3::Y * (lowest + 0.5 * extent.y), 0.5 * extent);
-    let lens = Lens { diameter: 0.0, focal_distance: 1.0 };
     let mut scene = Scene {
         name: name.to_owned(),
         camera,
-        lens,
+        model: CameraModel::default(),
+        lens: Lens { diameter: 0.0, focal_distance: 1.0 },
+        hole: Hole { diameter: 0.0, upright: false },
         size: SIZE,
         max_bounces: 5,
         background: Background { horizon: Vec3::new(0.92, 0.9, 0.87), zenith: Vec3::new(0.24, 0.44, 0.78) },
         ambient: Vec3::new(0.24, 0.27, 0.32),
         lights: lights(),
         materials: vec![floor(square as f32)],
+        material_names: vec!["ground".into()],
         spheres: Vec::new(),
         boxes: Vec::new(),
         triangles: Vec::new(),
@@ -68,6 +74,10 @@ pub(super) fn around(mesh: &Mesh, name: &str) -> Result<Scene> {
     };
     mesh.add_to(&mut scene, &placement, None)?;
     scene.lens = lens_for(&scene);
+    // A file does not say how large its units are: as large as makes of this lens an ordinary one.
+    let frame_metres = scene.camera.focal_length_mm() / 1000.0;
+    scene.camera.metres_per_unit = frame_metres / F_NUMBER / f64::from(scene.lens.diameter);
+    scene.hole.diameter = scene.camera.default_hole_diameter();
     Ok(scene)
 }
 
@@ -79,6 +89,7 @@ fn camera(center: DVec3, half: DVec3) -> Camera {
         look_at: center.as_vec3(),
         up: Vec3::Y,
         vfov_radians: VFOV_DEGREES.to_radians(),
+        metres_per_unit: 1.0,
     };
     let diagonal = 2.0 * half.length();
     let frame = toward(diagonal).frame();

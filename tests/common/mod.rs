@@ -58,6 +58,7 @@ impl Gpu {
             accumulate: self.shader("accumulate"),
             select: self.shader("select"),
             resolve: self.shader("resolve"),
+            pick: self.shader("pick"),
         };
         Renderer::with_shaders(self.device(), shaders).expect("a renderer")
     }

@@ -46,7 +46,7 @@ pub fn probe_as<In: Pod, Out: Pod>(
     let front = [Binding::Buffer(input), Binding::Buffer(Arc::clone(&output))];
     let scene = scene.map(|scene| SceneBuffers::new(device, &SceneData::new(scene)).expect("a scene"));
     let (mut bindings, constants) = match &scene {
-        Some(scene) => (scene.bindings(front), scene.constants([sampler, 0])),
+        Some(scene) => (scene.bindings(&front), scene.constants([sampler, 0])),
         None => ((0..).zip(front).collect(), vec![sampler]),
     };
     // Few of the functions need sample values.

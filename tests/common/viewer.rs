@@ -35,6 +35,8 @@ pub struct Viewer {
     pub shown: RefCell<(u32, u32)>,
     /// Lens diameter, focal distance and jitter.
     pub state: RefCell<[f32; 3]>,
+    /// Camera model and field of view in degrees.
+    pub view: RefCell<String>,
     /// All samples that were shown, since it was cleared last.
     pub history: RefCell<Vec<u32>>,
     pub display: String,
@@ -93,6 +95,7 @@ impl Viewer {
             controls: RefCell::default(),
             shown: RefCell::default(),
             state: RefCell::default(),
+            view: RefCell::default(),
             history: RefCell::default(),
             display,
             connection,
@@ -120,6 +123,9 @@ impl Viewer {
         if let Some(state) = line.split("] lens ").nth(1) {
             let numbers = state.split(' ').filter_map(|number| number.parse().ok());
             *self.state.borrow_mut() = numbers.collect::<Vec<f32>>().try_into().expect("three numbers");
+        }
+        if let Some(view) = line.split("] view ").nth(1) {
+            view.clone_into(&mut self.view.borrow_mut());
         }
         if let Some(shown) = line.split("shown ").nth(1) {
             let (samples, target) = shown.split_once('/').expect("two numbers");
@@ -196,7 +202,7 @@ impl Viewer {
         self.until(control, reached, || self.click_once(control));
     }
 
-    fn click_once(&self, control: &str) {
+    pub fn click_once(&self, control: &str) {
         let [x, y, _, height] = self.controls.borrow()[control];
         self.xdotool(&format!("mousemove {} {}", x + height / 2, y + height / 2));
         self.frames(3);

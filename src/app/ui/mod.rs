@@ -1,13 +1,30 @@
 //! The panel.
 
+mod lens;
+mod numbers;
+mod widgets;
+
 use crate::error::Error;
-use crate::renderer::Progress;
-use crate::scene::{self, BUILTINS, MAX_LENGTH, MIN_LENGTH, SceneRef};
+use crate::renderer::{Picked, Progress};
+use crate::scene::{self, BUILTINS, SceneRef};
 use crate::settings::{DEFAULT_JITTER, Overlay, Settings};
 use imgui::{Condition, SliderFlags, Ui};
+use widgets::{Layout, named, note_item, section, tooltip};
 
 /// The points slider goes this far, or as far as was asked for.
 const MAX_POINTS: u32 = 4096;
+
+/// How sliders go over several orders of magnitude.
+const LOGARITHMIC: SliderFlags = SliderFlags::from_bits_truncate(
+    SliderFlags::LOGARITHMIC.bits()
+        | SliderFlags::ALWAYS_CLAMP.bits()
+        | SliderFlags::NO_ROUND_TO_FORMAT.bits(),
+);
+
+/// Width of the panel, in points.
+const PANEL_WIDTH: f32 = 320.0;
+/// Around the panel, in points.
+const MARGIN: f32 = 12.0;
 
 /// What the panel edits, and what it has to know for it.
 pub(super) struct Panel {
@@ -24,13 +41,22 @@ pub(super) struct Panel {
     scenes: Vec<String>,
     message: Option<String>,
     /// Where the controls were drawn, to tell when they moved.
-    layout: Vec<(&'static str, [i32; 4])>,
+    layout: Layout,
 }
 
 /// What the panel shows of the renderer.
 pub(super) struct Status<'a> {
     pub(super) progress: Progress,
     pub(super) device: &'a str,
+    /// What lies under the pointer, while it is over the picture.
+    pub(super) picked: Option<&'a Picked>,
+}
+
+/// What a button asks for beyond the settings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Action {
+    /// Focus on what is in the middle of the picture.
+    Autofocus,
 }
 
 impl Panel {
@@ -52,19 +78,29 @@ impl Panel {
     }
 
     /// Draws the panel and changes the settings as told.
-    pub(super) fn draw(&mut self, ui: &Ui, status: &Status<'_>) {
+    pub(super) fn draw(&mut self, ui: &Ui, status: &Status<'_>) -> Option<Action> {
         let mut layout = Vec::new();
+        let mut action = None;
+        let [_, height] = ui.io().display_size;
         ui.window("thinlens")
-            .position([12.0, 12.0], Condition::FirstUseEver)
-            .size([320.0, 0.0], Condition::Always)
+            .position([MARGIN; 2], Condition::FirstUseEver)
+            .size([PANEL_WIDTH, 0.0], Condition::Always)
+            .size_constraints([PANEL_WIDTH, 0.0], [PANEL_WIDTH, (height - 2.0 * MARGIN).max(64.0)])
             .resizable(false)
             .build(|| {
                 ui.set_next_item_width(-1.0);
                 self.scene_chooser(ui);
-                ui.spacing();
-                self.sliders(ui, &mut layout);
-                ui.separator();
-                self.status(ui, status);
+                self.main_sliders(ui, &mut layout);
+                self.progress(ui, status);
+                if ui.button("Autofocus") {
+                    action = Some(Action::Autofocus);
+                }
+                note_item(ui, "Autofocus", &mut layout);
+                tooltip(
+                    ui,
+                    "Focuses on what is in the middle of the picture. Right-click anything, or point at it and press F, to focus on that instead; Ctrl and the wheel move the plane by hand.",
+                );
+                ui.same_line();
                 if ui.button("Reset") {
                     let size = self.settings.estimator.size;
                     self.settings = self.initial.clone();
@@ -72,6 +108,11 @@ impl Panel {
                 }
                 note_item(ui, "Reset", &mut layout);
                 tooltip(ui, "Back to the settings that the scene was opened with.");
+                section(ui, "Lens", true, &mut layout, |layout| self.opening(ui, layout));
+                section(ui, "What is sharp", true, &mut layout, |_| self.numbers(ui, status.picked));
+                section(ui, "Sampling", false, &mut layout, |layout| self.sampling(ui, layout));
+                section(ui, "View", false, &mut layout, |layout| self.view(ui, layout));
+                section(ui, "Device", false, &mut layout, |_| device(ui, status));
             });
         if layout != self.layout {
             for (name, [x, y, width, height]) in &layout {
@@ -79,13 +120,16 @@ impl Panel {
             }
             self.layout = layout;
         }
+        action
     }
 
-    /// The renderer took the settings.
-    pub(super) fn accept(&mut self) {
+    /// The renderer took the settings. Says whether the picture is another one now.
+    pub(super) fn accept(&mut self) -> bool {
+        let changed = self.accepted.0.estimator != self.settings.estimator;
         if self.accepted.0 != self.settings {
             self.accepted = (self.settings.clone(), self.scene.clone());
         }
+        changed
     }
 
     /// The renderer did not: back to what it took last, and say why.
@@ -133,41 +177,8 @@ impl Panel {
         }
     }
 
-    fn sliders(&mut self, ui: &Ui, layout: &mut Vec<(&'static str, [i32; 4])>) {
-        let logarithmic =
-            SliderFlags::LOGARITHMIC | SliderFlags::ALWAYS_CLAMP | SliderFlags::NO_ROUND_TO_FORMAT;
-        let initial = &self.initial.estimator.lens;
-        let widest =
-            if initial.diameter > 0.0 { 8.0 * initial.diameter } else { 0.1 * initial.focal_distance };
-        let nearest = (initial.focal_distance / 20.0).max(MIN_LENGTH);
-        let farthest = (initial.focal_distance * 20.0).min(MAX_LENGTH);
-        let widest = widest.min(MAX_LENGTH);
-        let estimator = &mut self.settings.estimator;
-
-        named(
-            ui,
-            "Lens diameter",
-            "How wide the lens is, in scene units. 0 is a pinhole: everything is sharp.",
-            layout,
-            |id| {
-                ui.slider_config(id, 0.0, widest)
-                    .display_format("%.4g")
-                    .flags(SliderFlags::ALWAYS_CLAMP | SliderFlags::NO_ROUND_TO_FORMAT)
-                    .build(&mut estimator.lens.diameter);
-            },
-        );
-        named(
-            ui,
-            "Focal plane distance",
-            "How far away the plane lies in which everything is sharp, in scene units.",
-            layout,
-            |id| {
-                ui.slider_config(id, nearest, farthest)
-                    .display_format("%.4g")
-                    .flags(logarithmic)
-                    .build(&mut estimator.lens.focal_distance);
-            },
-        );
+    fn main_sliders(&mut self, ui: &Ui, layout: &mut Layout) {
+        self.aperture_and_focus(ui, layout);
         let (samples, max_points) = (&mut self.settings.samples, self.max_points);
         named(
             ui,
@@ -175,10 +186,13 @@ impl Panel {
             "How many rays are averaged in each pixel: more give less noise. Raising it goes on from what is there.",
             layout,
             |id| {
-                ui.slider_config(id, 1, max_points).flags(logarithmic).build(samples);
+                ui.slider_config(id, 1, max_points).flags(LOGARITHMIC).build(samples);
             },
         );
+    }
 
+    fn sampling(&mut self, ui: &Ui, layout: &mut Layout) {
+        let estimator = &mut self.settings.estimator;
         let mut centre_only = estimator.jitter == 0.0;
         if ui.checkbox("One centre ray per pixel", &mut centre_only) {
             estimator.jitter = if centre_only { 0.0 } else { DEFAULT_JITTER };
@@ -201,6 +215,9 @@ impl Panel {
                     .build(&mut estimator.noise_threshold);
             },
         );
+    }
+
+    fn view(&mut self, ui: &Ui, layout: &mut Layout) {
         let overlay = &mut self.settings.view.overlay;
         let mut counts = overlay.is_some();
         if ui.checkbox("Show sample counts", &mut counts) {
@@ -227,61 +244,34 @@ impl Panel {
         );
     }
 
-    fn status(&self, ui: &Ui, status: &Status<'_>) {
-        let Progress { samples, traced, device_time, rejected_samples, active_pixels, .. } = status.progress;
+    fn progress(&self, ui: &Ui, status: &Status<'_>) {
+        let Progress { samples, active_pixels, .. } = status.progress;
         let target = self.settings.samples;
+        let text = match active_pixels {
+            None => format!("{samples} / {target} points"),
+            Some(active) => {
+                let [width, height] = self.settings.estimator.size.map(u64::from);
+                let share = 100.0 * active as f64 / (width * height) as f64;
+                format!("{samples} / {target} points, {share:.1}% of the pixels go on")
+            }
+        };
         imgui::ProgressBar::new(samples as f32 / target as f32)
             .size([-1.0, 0.0])
-            .overlay_text(format!("{samples} / {target} points"))
+            .overlay_text(text)
             .build(ui);
-        let seconds = device_time.as_secs_f64();
-        if seconds > 0.0 {
-            ui.text(format!("{:.1} M samples per second", traced as f64 / seconds / 1e6));
-        } else {
-            ui.text("measuring ...");
-        }
-        if let Some(active) = active_pixels {
-            let [width, height] = self.settings.estimator.size.map(u64::from);
-            ui.text(format!("{:.1}% of the pixels go on", 100.0 * active as f64 / (width * height) as f64));
-        }
-        if rejected_samples > 0 {
-            ui.text(format!("{rejected_samples} samples were not finite and are left out"));
-        }
-        ui.text_wrapped(status.device);
     }
 }
 
-/// A control with its name above it, as wide as the panel.
-fn named(
-    ui: &Ui,
-    name: &'static str,
-    help: &str,
-    layout: &mut Vec<(&'static str, [i32; 4])>,
-    control: impl FnOnce(String),
-) {
-    ui.text(name);
-    ui.set_next_item_width(-1.0);
-    control(format!("##{name}"));
-    note_item(ui, name, layout);
-    tooltip(ui, help);
-}
-
-fn tooltip(ui: &Ui, help: &str) {
-    if ui.is_item_hovered() && !ui.is_item_active() {
-        ui.tooltip(|| {
-            let _wrap = ui.push_text_wrap_pos_with_pos(280.0);
-            ui.text_wrapped(help);
-        });
+fn device(ui: &Ui, status: &Status<'_>) {
+    let Progress { traced, device_time, rejected_samples, .. } = status.progress;
+    ui.text_wrapped(status.device);
+    let seconds = device_time.as_secs_f64();
+    if seconds > 0.0 {
+        ui.text(format!("{:.1} M samples per second", traced as f64 / seconds / 1e6));
+    } else {
+        ui.text("measuring ...");
     }
-}
-
-/// Where the last item is, in physical pixels: left, top, width, height.
-fn note_item(ui: &Ui, name: &'static str, layout: &mut Vec<(&'static str, [i32; 4])>) {
-    let scale = ui.io().display_framebuffer_scale;
-    let (min, max) = (ui.item_rect_min(), ui.item_rect_max());
-    let pixels = |value: f32, axis: usize| (value * scale[axis]).round() as i32;
-    layout.push((
-        name,
-        [pixels(min[0], 0), pixels(min[1], 1), pixels(max[0] - min[0], 0), pixels(max[1] - min[1], 1)],
-    ));
+    if rejected_samples > 0 {
+        ui.text_wrapped(format!("{rejected_samples} samples were not finite and are left out"));
+    }
 }

@@ -1,12 +1,21 @@
 //! Everything a user can set, in the two halves that decide when the film starts anew.
 
+mod preset;
+
+pub use preset::{PRESETS, Preset};
+
 use crate::error::{Error, Result};
-use crate::scene::{Camera, Lens, MAX_BOUNCES, MAX_EXTENT, MAX_LENGTH, MIN_LENGTH, SceneRef};
+use crate::scene::{
+    Camera, CameraModel, Hole, Lens, MAX_BOUNCES, MAX_EXTENT, MAX_LENGTH, MIN_LENGTH, SceneRef,
+};
+use std::ops::RangeInclusive;
 
 /// The film's count is held in f32, which is exact up to here.
 pub const MAX_SAMPLES: u32 = 1 << 24;
 /// The widest jitter, in pixels. Accumulation looks at `ceil(jitter / 2 - 1 / 2)` pixels around.
 pub const MAX_JITTER: f32 = 15.0;
+/// The smallest and largest f-number.
+pub const F_NUMBERS: RangeInclusive<f64> = 0.01..=1e6;
 /// The strongest exposure either way, in stops.
 pub const MAX_EXPOSURE_STOPS: f32 = 20.0;
 /// Samples per pixel of a headless picture, unless another number is asked for.
@@ -25,6 +34,15 @@ pub struct Settings {
     pub samples: u32,
 }
 
+/// A place of the picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Place {
+    /// Its middle.
+    Centre,
+    /// In pixels from its upper left corner.
+    At([f32; 2]),
+}
+
 /// Where to render.
 #[derive(Debug, Clone, Default)]
 pub struct DeviceChoice {
@@ -41,8 +59,12 @@ pub struct Estimator {
     pub scene: SceneRef,
     /// Where the picture is taken from.
     pub camera: Camera,
-    /// Through what.
+    /// What forms the picture.
+    pub model: CameraModel,
+    /// The thin lens.
     pub lens: Lens,
+    /// The hole of a camera without a lens.
+    pub hole: Hole,
     /// Width and height in pixels.
     pub size: [u32; 2],
     /// Width of the square around a pixel's centre that its samples fall in, in pixels.
@@ -62,6 +84,21 @@ impl Estimator {
     /// Whether pixels stop by themselves.
     pub fn is_adaptive(&self) -> bool {
         self.noise_threshold > 0.0
+    }
+
+    /// The f-number of the lens; infinite where its diameter is 0.
+    pub fn f_number(&self) -> f64 {
+        self.camera.f_number(self.lens.diameter)
+    }
+
+    /// Gives the lens this f-number.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`].
+    pub fn set_f_number(&mut self, f_number: f64) -> Result<()> {
+        in_range("f-number", f_number, *F_NUMBERS.start(), *F_NUMBERS.end())?;
+        self.lens.diameter = self.camera.diameter_of_f_number(f_number) as f32;
+        Ok(())
     }
 }
 
@@ -104,7 +141,9 @@ impl Settings {
         Self {
             estimator: Estimator {
                 camera: scene.camera,
+                model: scene.model,
                 lens: scene.lens,
+                hole: scene.hole,
                 size: scene.size,
                 max_bounces: scene.max_bounces,
                 jitter: DEFAULT_JITTER,
@@ -123,11 +162,12 @@ impl Settings {
     /// # Errors
     /// [`Error::OutOfRange`], naming the option, the value and the range.
     pub fn check(&self) -> Result<()> {
-        let Estimator { lens, size, jitter, max_bounces, noise_threshold, .. } = &self.estimator;
+        let Estimator { lens, hole, size, jitter, max_bounces, noise_threshold, .. } = &self.estimator;
         in_range("size: width", size[0], 1, MAX_EXTENT)?;
         in_range("size: height", size[1], 1, MAX_EXTENT)?;
         in_range("lens-diameter", lens.diameter, 0.0, MAX_LENGTH)?;
         in_range("focal-distance", lens.focal_distance, MIN_LENGTH, MAX_LENGTH)?;
+        in_range("hole-diameter", hole.diameter, 0.0, MAX_LENGTH)?;
         in_range("jitter", *jitter, 0.0, MAX_JITTER)?;
         in_range("max-bounces", *max_bounces, 0, MAX_BOUNCES)?;
         in_range("noise-threshold", *noise_threshold, 0.0, 1.0)?;

@@ -1,0 +1,57 @@
+//! Controls of the panel.
+
+use imgui::{TreeNodeFlags, Ui};
+
+/// Where controls are, in physical pixels: name, and left, top, width, height.
+pub(super) type Layout = Vec<(&'static str, [i32; 4])>;
+
+/// A control with its name above it, as wide as the panel.
+pub(super) fn named(
+    ui: &Ui,
+    name: &'static str,
+    help: &str,
+    layout: &mut Layout,
+    control: impl FnOnce(String),
+) {
+    ui.text(name);
+    ui.set_next_item_width(-1.0);
+    control(format!("##{name}"));
+    note_item(ui, name, layout);
+    tooltip(ui, help);
+}
+
+pub(super) fn tooltip(ui: &Ui, help: &str) {
+    if ui.is_item_hovered() && !ui.is_item_active() {
+        ui.tooltip(|| {
+            let _wrap = ui.push_text_wrap_pos_with_pos(280.0);
+            ui.text_wrapped(help);
+        });
+    }
+}
+
+/// Where the last item is, in physical pixels: left, top, width, height.
+pub(super) fn note_item(ui: &Ui, name: &'static str, layout: &mut Layout) {
+    let scale = ui.io().display_framebuffer_scale;
+    let (min, max) = (ui.item_rect_min(), ui.item_rect_max());
+    let pixels = |value: f32, axis: usize| (value * scale[axis]).round() as i32;
+    layout.push((
+        name,
+        [pixels(min[0], 0), pixels(min[1], 1), pixels(max[0] - min[0], 0), pixels(max[1] - min[1], 1)],
+    ));
+}
+
+/// A part of the panel that folds away.
+pub(super) fn section(
+    ui: &Ui,
+    name: &'static str,
+    open: bool,
+    layout: &mut Layout,
+    content: impl FnOnce(&mut Layout),
+) {
+    let flags = if open { TreeNodeFlags::DEFAULT_OPEN } else { TreeNodeFlags::empty() };
+    let open = ui.collapsing_header(name, flags);
+    note_item(ui, name, layout);
+    if open {
+        content(layout);
+    }
+}

@@ -1,0 +1,196 @@
+//! The command line, as values. Nothing is rendered here.
+
+mod settings;
+
+use crate::error::Result;
+use crate::scene::{self, BUILTINS, SceneRef};
+use crate::settings::{DEFAULT_SAMPLES, DeviceChoice, Place, Sampler, Settings};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use settings::SamplerArg;
+pub use settings::SettingsArgs;
+use std::path::PathBuf;
+
+/// The command line.
+#[derive(Debug, Parser)]
+#[command(
+    name = "thinlens",
+    version,
+    about = "Renders scenes through a thin lens, so that what lies off the focal plane is blurred",
+    after_help = "Try:\n  \
+        thinlens                                       the viewer, with sliders for the lens\n  \
+        thinlens render -o picture.png                 the default scene to a file\n  \
+        thinlens render -o sharp.png --lens-diameter 0 the same through a pinhole\n  \
+        thinlens render suffern-boxes -o boxes.exr     linear values and sample counts\n  \
+        thinlens render bunny.obj -o bunny.png         a mesh, on a ground, in focus"
+)]
+pub struct Cli {
+    /// Without one, the viewer opens.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Open the viewer (the default); with no display, render to thinlens.png
+    View(ViewArgs),
+    /// Render a picture to a file, without a window
+    Render(RenderArgs),
+    /// Prove a device: hold what it renders against the same mathematics in f64, sample by sample
+    Verify(VerifyArgs),
+    /// Measure a device: throughput, first picture, and how the error falls, for every sampler
+    Bench(BenchArgs),
+    /// List the built-in scenes
+    Scenes,
+    /// List the Vulkan devices that --device can name
+    Devices,
+}
+
+/// `thinlens view`.
+#[derive(Debug, Args, Default)]
+pub struct ViewArgs {
+    /// What to render.
+    #[command(flatten)]
+    pub settings: SettingsArgs,
+    /// On which device, and whether it is watched.
+    #[command(flatten)]
+    pub device: DeviceArgs,
+}
+
+/// `thinlens render`.
+#[derive(Debug, Args)]
+pub struct RenderArgs {
+    /// What to render.
+    #[command(flatten)]
+    pub settings: SettingsArgs,
+    /// Focus on what the picture shows at this pixel, counted from its upper left corner, or in its middle
+    #[arg(
+        long,
+        value_name = "X,Y",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "centre",
+        value_parser = parse_place,
+        conflicts_with = "focal_distance"
+    )]
+    pub autofocus: Option<Place>,
+    /// The picture: .png (8-bit sRGB) or .exr (linear f32 R, G, B, and count: samples per pixel)
+    #[arg(short, long, value_name = "OUT.png|OUT.exr")]
+    pub output: PathBuf,
+    /// Also write figures of the rendering, as JSON
+    #[arg(long, value_name = "FILE.json")]
+    pub stats: Option<PathBuf>,
+    /// On which device, and whether it is watched.
+    #[command(flatten)]
+    pub device: DeviceArgs,
+    /// Say nothing but warnings and errors
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// `thinlens verify`.
+#[derive(Debug, Args)]
+#[command(
+    mut_arg("scene", |scene| scene.help("A built-in scene (see thinlens scenes), .toml or .obj file [default: every built-in one]")),
+    mut_arg("samples", |samples| samples.help("Antialiasing points per pixel [default: 16]")),
+    mut_arg("size", |size| size.help("Picture size in pixels [default: 128x96]")),
+    mut_arg("noise_threshold", |threshold| threshold.hide(true)),
+    mut_arg("overlay", |overlay| overlay.hide(true)),
+    mut_arg("exposure", |exposure| exposure.hide(true))
+)]
+pub struct VerifyArgs {
+    /// What to render.
+    #[command(flatten)]
+    pub settings: SettingsArgs,
+    /// On which device, and whether it is watched.
+    #[command(flatten)]
+    pub device: DeviceArgs,
+}
+
+/// `thinlens bench`.
+#[derive(Debug, Args)]
+pub struct BenchArgs {
+    /// Built-in scenes (see thinlens scenes), .toml or .obj files [default: every built-in one]
+    scenes: Vec<String>,
+    /// Picture size in pixels; the error is measured at 320x240 at most
+    #[arg(short, long, value_name = "WxH", value_parser = parse_size, default_value = "640x480")]
+    size: [u32; 2],
+    /// Antialiasing points per pixel of the pictures that throughput is measured with
+    #[arg(short = 'n', long, value_name = "N", allow_negative_numbers = true, default_value_t = DEFAULT_SAMPLES)]
+    samples: u32,
+    /// How often everything is measured, after a warm-up
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 5)]
+    pub runs: u32,
+    /// Give the figures as JSON, with spreads: to FILE beside the table, or in place of it
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = "-")]
+    pub json: Option<PathBuf>,
+    /// On which device, and whether it is watched.
+    #[command(flatten)]
+    pub device: DeviceArgs,
+}
+
+/// Where to render.
+#[derive(Debug, Args, Default)]
+pub struct DeviceArgs {
+    /// Vulkan device, by its index or part of its name (see thinlens devices) [default: the best]
+    #[arg(long, value_name = "INDEX|NAME")]
+    pub device: Option<String>,
+    /// Check every Vulkan call with the Khronos validation layer; any message is a failure
+    #[arg(long)]
+    pub validation: bool,
+}
+
+impl DeviceArgs {
+    /// As a plain value.
+    pub fn choice(&self) -> DeviceChoice {
+        DeviceChoice { device: self.device.clone(), validation: self.validation }
+    }
+}
+
+impl BenchArgs {
+    /// A picture of each scene that was named, or that is built in.
+    ///
+    /// # Errors
+    /// Of the scene, or [`crate::error::Error::OutOfRange`].
+    pub fn pictures(&self) -> Result<Vec<Settings>> {
+        let picture = |name: &str| {
+            let mut settings = Settings::of_scene(SceneRef::new(scene::load(name)?));
+            settings.estimator.size = self.size;
+            settings.samples = self.samples;
+            settings.check()?;
+            Ok(settings)
+        };
+        if self.scenes.is_empty() {
+            return BUILTINS.iter().map(|builtin| picture(builtin.name)).collect();
+        }
+        self.scenes.iter().map(|name| picture(name)).collect()
+    }
+
+    /// Every sampler, by its name.
+    pub fn samplers() -> Vec<(String, Sampler)> {
+        let name = |sampler: &SamplerArg| {
+            let value = sampler.to_possible_value()?;
+            Some((value.get_name().to_owned(), sampler.plain()))
+        };
+        SamplerArg::value_variants().iter().filter_map(name).collect()
+    }
+}
+
+fn parse_place(text: &str) -> Result<Place, String> {
+    if text == "centre" {
+        return Ok(Place::Centre);
+    }
+    let parse = || {
+        let (x, y) = text.split_once(',')?;
+        Some(Place::At([x.trim().parse().ok()?, y.trim().parse().ok()?]))
+    };
+    parse().ok_or_else(|| "a place is X,Y in pixels from the upper left corner, such as 320,240".into())
+}
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let parse = || {
+        let (width, height) = text.split_once(['x', 'X'])?;
+        Some([width.parse().ok()?, height.parse().ok()?])
+    };
+    parse().ok_or_else(|| "a size is WIDTHxHEIGHT in pixels, such as 1280x720".into())
+}

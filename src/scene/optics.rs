@@ -1,0 +1,72 @@
+//! A lens in a photographer's units, and what its blur amounts to.
+//!
+//! The frame is 24 mm high and stands at `v = 12 mm / tan(vfov / 2)` behind the lens, where it stays
+//! whatever is in focus. [`Camera::metres_per_unit`] ties its millimetres to the scene's lengths. Circles
+//! of confusion follow from similar triangles: K. Suffern, *Ray Tracing from the Ground Up*, section 10.1.
+
+use super::{Camera, Lens};
+
+/// Half the frame's height, in millimetres: of the 36 x 24 mm of 35 mm film.
+const HALF_FRAME_MM: f64 = 12.0;
+/// The frame's height, in millimetres.
+pub const FRAME_HEIGHT_MM: f64 = 2.0 * HALF_FRAME_MM;
+
+/// The vertical field of view, in radians, of a lens of this focal length that is focused at infinity.
+pub fn vfov_of_focal_length(millimetres: f64) -> f64 {
+    2.0 * (HALF_FRAME_MM / millimetres).atan()
+}
+
+impl Camera {
+    /// The distance of the film behind the lens, in millimetres: the focal length that the field of view
+    /// has on a 24 mm high frame.
+    pub fn focal_length_mm(&self) -> f64 {
+        HALF_FRAME_MM / (0.5 * self.vfov_radians).tan()
+    }
+
+    /// The same distance in scene units.
+    pub fn film_distance(&self) -> f64 {
+        self.units_of_mm(self.focal_length_mm())
+    }
+
+    /// A length in scene units that is this long in millimetres.
+    pub fn units_of_mm(&self, millimetres: f64) -> f64 {
+        millimetres / 1000.0 / self.metres_per_unit
+    }
+
+    /// The f-number of a lens of this diameter in scene units; infinite for a pinhole.
+    pub fn f_number(&self, diameter: f32) -> f64 {
+        self.film_distance() / f64::from(diameter)
+    }
+
+    /// The diameter in scene units that a lens of this f-number has.
+    pub fn diameter_of_f_number(&self, f_number: f64) -> f64 {
+        self.film_distance() / f_number
+    }
+
+    /// The diameter of a hole that blurs a far point about as much as 1 in 80 of the picture's height.
+    pub fn default_hole_diameter(&self) -> f32 {
+        self.units_of_mm(0.3) as f32
+    }
+
+    /// How wide the picture of a point at this axial depth is, in pixels of a picture of this height:
+    /// positive behind the focal plane, negative in front of it.
+    pub fn circle_of_confusion(&self, lens: &Lens, depth: f64, height: u32) -> f64 {
+        let focal_distance = f64::from(lens.focal_distance);
+        f64::from(lens.diameter) * (depth - focal_distance) / (depth * focal_distance)
+            * self.view_distance_pixels(height)
+    }
+
+    /// The axial depths between which circles of confusion stay within `tolerance` pixels. The far one is
+    /// infinite from the hyperfocal distance on.
+    pub fn depth_of_field(&self, lens: &Lens, tolerance: f64, height: u32) -> [f64; 2] {
+        let focused = f64::from(lens.focal_distance).recip();
+        let margin = self.hyperfocal_distance(lens, tolerance, height).recip();
+        let far = (focused - margin).recip();
+        [(focused + margin).recip(), if far > 0.0 { far } else { f64::INFINITY }]
+    }
+
+    /// The focal distance from which on everything behind stays within `tolerance` pixels.
+    pub fn hyperfocal_distance(&self, lens: &Lens, tolerance: f64, height: u32) -> f64 {
+        f64::from(lens.diameter) * self.view_distance_pixels(height) / tolerance
+    }
+}

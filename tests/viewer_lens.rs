@@ -1,0 +1,147 @@
+//! The viewer under Xvfb: focusing by the pointer, and the controls of the lens.
+
+mod common;
+
+use common::circle_of_confusion;
+use common::viewer::Viewer;
+use std::time::Duration;
+use thinlens::reference::{Reference, intersect};
+use thinlens::scene::{self, SceneRef};
+use thinlens::settings::{Estimator, Settings};
+
+const SIZE: [u16; 2] = [800, 520];
+
+/// What the viewer shows at first.
+fn shown() -> Estimator {
+    let scene = scene::load("version-4").expect("a built-in scene");
+    let mut estimator = Settings::of_scene(SceneRef::new(scene)).estimator;
+    estimator.size = SIZE.map(u32::from);
+    estimator
+}
+
+/// The oracle's depth of what the middle of a pixel shows, and the name of its material.
+fn under(estimator: &Estimator, pixel: [u32; 2]) -> (f64, String) {
+    let ray = Reference::new(estimator).trace(pixel, [0.0; 2], [0.0; 2]).ray;
+    let hit = intersect::intersect(&estimator.scene, ray, 0.0).expect("a surface");
+    let axis = (estimator.camera.look_at - estimator.camera.eye).as_dvec3().normalize();
+    let name = estimator.scene.material_names[hit.material as usize].clone();
+    (hit.distance * ray.direction.dot(axis), name)
+}
+
+/// Waits until nothing moves any more.
+fn rest(viewer: &Viewer) {
+    while viewer.listen(Duration::from_millis(500)).is_some() {}
+}
+
+/// Where a material is seen in the right half of the picture, two pixels from anything else.
+fn find(estimator: &Estimator, material: &str) -> [u32; 2] {
+    let [width, height] = estimator.size;
+    let is = |pixel: [u32; 2]| {
+        let ray = Reference::new(estimator).trace(pixel, [0.0; 2], [0.0; 2]).ray;
+        intersect::intersect(&estimator.scene, ray, 0.0)
+            .is_some_and(|hit| estimator.scene.material_names[hit.material as usize] == material)
+    };
+    let mut places = (0..height).step_by(4).flat_map(|y| (width / 2..width).step_by(4).map(move |x| [x, y]));
+    places
+        .find(|[x, y]| [[x - 8, *y], [x + 8, *y], [*x, y - 8], [*x, y + 8]].into_iter().all(is))
+        .unwrap_or_else(|| panic!("no {material} in sight"))
+}
+
+/// Catches a click that focuses on another place, on the distance along the ray, or not wholly: after it
+/// what was clicked, off the axis, is blurred over less than half a pixel. Likewise F, the wheel, and the
+/// button.
+#[test]
+fn what_is_pointed_at_comes_into_focus() {
+    let estimator = shown();
+    let viewer = Viewer::start(SIZE, &["-n", "4"]);
+    viewer.wait_until_done();
+    // Without a window manager nobody else does.
+    viewer.xdotool("search --class thinlens windowfocus --sync");
+    let k = estimator.camera.view_distance_pixels(estimator.size[1]);
+    let blur = |viewer: &Viewer, depth: f64| {
+        let [diameter, focal_distance, _] = viewer.state.borrow().map(f64::from);
+        circle_of_confusion(diameter, focal_distance, depth, k)
+    };
+    let point_at = |viewer: &Viewer, [x, y]: [u32; 2]| {
+        viewer.xdotool(&format!("mousemove {x} {y}"));
+        viewer.frames(3);
+    };
+
+    for (material, act) in [("cream", "click 3"), ("terracotta", "key f")] {
+        let pixel = find(&estimator, material);
+        let (depth, _) = under(&estimator, pixel);
+        assert!(blur(&viewer, depth) > 4.0, "{material} is in focus already");
+        viewer.until(
+            "pointing",
+            |viewer| (f64::from(viewer.state.borrow()[1]) / depth - 1.0).abs() < 1e-4,
+            || {
+                point_at(&viewer, pixel);
+                viewer.xdotool(act);
+            },
+        );
+        assert!(blur(&viewer, depth) < 0.5, "{material} is blurred over {} px", blur(&viewer, depth));
+        viewer.wait_until_done();
+        let focal_distance = viewer.state.borrow()[1].to_string();
+        viewer.expect_picture(material, 0, &["-n", "4", "--focal-distance", &focal_distance]);
+    }
+
+    // Up the wheel with Ctrl: away, by 2% a notch. Xvfb sends more than one.
+    rest(&viewer);
+    let before = viewer.state.borrow()[1];
+    viewer.until(
+        "the wheel",
+        |viewer| {
+            let notches = (viewer.state.borrow()[1] / before).ln() / 1.02_f32.ln();
+            notches > 0.5 && (notches - notches.round()).abs() < 0.01
+        },
+        || {
+            viewer.xdotool("keydown ctrl");
+            viewer.frames(3);
+            viewer.xdotool("click 4");
+            viewer.frames(3);
+            viewer.xdotool("keyup ctrl");
+        },
+    );
+
+    let (depth, _) = under(&estimator, [400, 260]);
+    viewer.click("Autofocus", |viewer| blur(viewer, depth) < 0.5);
+
+    // The background is nothing to focus on.
+    rest(&viewer);
+    let before = *viewer.state.borrow();
+    point_at(&viewer, [790, 10]);
+    viewer.xdotool("click 3");
+    rest(&viewer);
+    assert_eq!(*viewer.state.borrow(), before, "it focuses on the sky");
+    viewer.close();
+}
+
+/// Catches f-numbers that are another lens's, a camera that is not the one chosen, and a known lens that
+/// is not put in: the viewer then shows what the command line renders by that name.
+#[test]
+fn the_lens_is_chosen_by_name_and_by_f_number() {
+    let estimator = shown();
+    let viewer = Viewer::start(SIZE, &["-n", "2"]);
+    viewer.wait_until_done();
+    let diameter = (estimator.camera.film_distance() / 8.0) as f32;
+    viewer.click("f/8", |viewer| viewer.state.borrow()[0] == diameter);
+    viewer.wait_until_done();
+    viewer.expect_picture("f/8", 0, &["-n", "2", "--f-number", "8"]);
+
+    let choose = |combo: &str, choice: &str, view: &str| {
+        viewer.until(
+            choice,
+            |viewer| *viewer.view.borrow() == view,
+            || {
+                viewer.controls.borrow_mut().remove(choice);
+                viewer.click(combo, |viewer| viewer.controls.borrow().contains_key(choice));
+                viewer.click_once(choice);
+            },
+        );
+    };
+    choose("Known lenses", "50 mm f/1.4", "ThinLens 26.991");
+    viewer.expect_picture("a 50 mm lens", 0, &["-n", "2", "--preset", "50mm-f1.4"]);
+    choose("Camera", "Hole, no lens", "Hole 26.991");
+    viewer.expect_picture("a hole", 0, &["-n", "2", "--preset", "50mm-f1.4", "--camera", "hole"]);
+    viewer.close();
+}
