@@ -7,7 +7,7 @@
 use std::sync::Arc;
 use thinlens::error::Result;
 use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush, estimator_constants};
-use thinlens::passes::{Accumulate, Adaptive, BlueNoiseTile, SceneBuffers, Trace};
+use thinlens::passes::{Accumulate, Adaptive, BlueNoiseTile, Opening, SceneBuffers, Trace};
 use thinlens::renderer::schedule::Pass;
 use thinlens::scene::{self, SceneRef};
 use thinlens::settings::Settings;
@@ -51,16 +51,18 @@ fn measure(device: &Arc<Device>, name: &str) -> Result<()> {
     let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene))?;
     let tile = BlueNoiseTile::new(device)?;
     let (trace, accumulate) = (
-        Trace::new(device, Trace::SHADER, constants, &scene, &tile)?,
+        Trace::new(device, Trace::SHADER, constants, 0, &scene, &tile)?,
         Accumulate::new(device, Accumulate::SHADER, constants, &tile)?,
     );
+    let opening = Opening::new(device, &[])?;
     let adaptive = Adaptive::new(device, None)?;
-    let traced = trace.bind(&scene, &batch, &counters, &adaptive, 0)?;
+    let traced = trace.bind(&scene, &opening, &batch, &counters, &adaptive, 0)?;
     let accumulated = accumulate.bind(&batch, &film, &adaptive, 0)?;
     let fused = ComputePipeline::new(device, FUSED, &scene.constants(constants))?;
     let front = [Binding::Image(Arc::clone(&film)), Binding::Buffer(Arc::clone(&counters))];
     let mut bindings = scene.bindings(&front);
     bindings.extend([adaptive.bind_list(13, 0), tile.binding()]);
+    bindings.extend(opening.bindings());
     let fused_bindings = BindingSet::new(&fused, &bindings)?;
 
     let mut commands = Commands::new(device)?;

@@ -14,6 +14,7 @@ layout(set = 0, binding = 14, r32f) writeonly uniform image2D batch_moments;
 
 void main() {
     keep_scene();
+    keep_aperture();
     TracePush push = push_constants;
     uvec2 pixel;
     if (find_pixel(push.lattice, pixel)) {

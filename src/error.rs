@@ -103,6 +103,14 @@ pub enum Error {
         /// What is wrong, and what to do.
         message: String,
     },
+    /// An image cannot be used as the shape of an aperture.
+    #[error("{file}: {message}")]
+    ApertureImage {
+        /// The image's file.
+        file: String,
+        /// What is wrong, and what to do.
+        message: String,
+    },
     /// A setting is out of its range.
     #[error("{0}")]
     OutOfRange(String),

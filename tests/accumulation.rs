@@ -9,7 +9,7 @@ use common::{Gpu, bits, film, probe, prove, render, scene_of, settings_of, small
 use glam::DVec3;
 use std::sync::Arc;
 use thinlens::gpu_types::{Camera, Counters, SceneData, TracePush, estimator_constants};
-use thinlens::passes::{Adaptive, BlueNoiseTile, SceneBuffers, Trace};
+use thinlens::passes::{Adaptive, BlueNoiseTile, Opening, SceneBuffers, Trace};
 use thinlens::reference::{self, sampler};
 use thinlens::renderer::schedule::Pass;
 use thinlens::settings::Settings;
@@ -37,12 +37,13 @@ fn record(gpu: &Gpu, settings: &Settings) -> Result<Vec<Vec<[f32; 4]>>> {
     let device = gpu.device();
     let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene))?;
     let tile = BlueNoiseTile::new(device)?;
-    let trace = Trace::new(device, gpu.shader("trace"), estimator_constants(estimator), &scene, &tile)?;
+    let trace = Trace::new(device, gpu.shader("trace"), estimator_constants(estimator), 0, &scene, &tile)?;
     let counters = Buffer::new(device, "counters", size_of::<Counters>() as u64, Residence::Device)?;
     let batch = Arc::new(Image::rgba32f(device, "batch", estimator.size)?);
     let read = Buffer::new(device, "samples", batch.byte_len(), Residence::Host)?;
     let adaptive = Adaptive::new(device, None)?;
-    let bindings = trace.bind(&scene, &batch, &Arc::new(counters), &adaptive, 0)?;
+    let opening = Opening::new(device, &[])?;
+    let bindings = trace.bind(&scene, &opening, &batch, &Arc::new(counters), &adaptive, 0)?;
     let mut commands = Commands::new(device)?;
     let one = |first_sample| {
         let push = TracePush {

@@ -37,6 +37,25 @@ fn twins() -> Vec<Twin> {
         twin!("TracePush", TracePush, [camera, lattice, seed, max_bounces, first_sample, sample_count]),
         twin!("AccumulatePush", AccumulatePush, [lattice, seed, first_sample, jitter, reach]),
         twin!("SelectPush", SelectPush, [lattice, threshold]),
+        twin!(
+            "Aperture",
+            Aperture,
+            [
+                stretch,
+                blade_count,
+                half_blade,
+                tangent,
+                straight,
+                inverse_straight,
+                inverse_bent,
+                straight_square,
+                roundness,
+                cats_eye,
+                most_cats_eye,
+                cells
+            ]
+        ),
+        twin!("ApertureBuffer", ApertureBuffer, [shape, edges]),
         twin!("PickPush", PickPush, [camera, extent, position]),
         twin!("PickedRay", PickedRay, [origin, distance, direction, material]),
         twin!("ResolvePush", ResolvePush, [extent, preview_stride, exposure, count_scale, blue_first]),

@@ -5,7 +5,7 @@ mod common;
 use common::{Gpu, run, small};
 use std::sync::Arc;
 use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush, estimator_constants};
-use thinlens::passes::{Accumulate, Adaptive, BlueNoiseTile, SceneBuffers, Trace};
+use thinlens::passes::{Accumulate, Adaptive, BlueNoiseTile, Opening, SceneBuffers, Trace};
 use thinlens::renderer::schedule::Pass;
 use thinlens::vulkan::{Buffer, Commands, Image, Residence};
 
@@ -35,11 +35,12 @@ fn record_two_passes(gpu: &Gpu, barrier: bool) {
     let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene)).expect("a scene");
     let tile = BlueNoiseTile::new(device).expect("a tile");
     let (trace, accumulate) = (
-        Trace::new(device, Trace::SHADER, constants, &scene, &tile).expect("trace"),
+        Trace::new(device, Trace::SHADER, constants, 0, &scene, &tile).expect("trace"),
         Accumulate::new(device, Accumulate::SHADER, constants, &tile).expect("accumulate"),
     );
+    let opening = Opening::new(device, &[]).expect("an opening");
     let adaptive = Adaptive::new(device, None).expect("images");
-    let traced = trace.bind(&scene, &batch, &counters, &adaptive, 0).expect("bindings");
+    let traced = trace.bind(&scene, &opening, &batch, &counters, &adaptive, 0).expect("bindings");
     let accumulated = accumulate.bind(&batch, &film, &adaptive, 0).expect("bindings");
 
     let pass = Pass::whole(0, 1, 1);

@@ -9,7 +9,7 @@ use thinlens::reference::{Reference, intersect};
 use thinlens::scene::{self, SceneRef};
 use thinlens::settings::{Estimator, Settings};
 
-const SIZE: [u16; 2] = [800, 520];
+const SIZE: [u16; 2] = [800, 900];
 
 /// What the viewer shows at first.
 fn shown() -> Estimator {
@@ -103,7 +103,7 @@ fn what_is_pointed_at_comes_into_focus() {
         },
     );
 
-    let (depth, _) = under(&estimator, [400, 260]);
+    let (depth, _) = under(&estimator, [400, 450]);
     viewer.click("Autofocus", |viewer| blur(viewer, depth) < 0.5);
 
     // The background is nothing to focus on.
@@ -139,9 +139,15 @@ fn the_lens_is_chosen_by_name_and_by_f_number() {
             },
         );
     };
-    choose("Known lenses", "50 mm f/1.4", "ThinLens 26.991");
+    choose("Known lenses", "50 mm f/1.4", "ThinLens 26.991 0 0");
     viewer.expect_picture("a 50 mm lens", 0, &["-n", "2", "--preset", "50mm-f1.4"]);
-    choose("Camera", "Hole, no lens", "Hole 26.991");
+    viewer.click("Aperture shape", |viewer| viewer.controls.borrow().contains_key("Aperture"));
+    choose("Aperture", "Iris of blades", "ThinLens 26.991 6 0");
+    viewer.expect_picture("an iris", 0, &["-n", "2", "--preset", "50mm-f1.4", "--blades", "6"]);
+    choose("Aperture", "Cat's eye", "ThinLens 26.991 0 0.5");
+    viewer.expect_picture("a cat's eye", 0, &["-n", "2", "--preset", "50mm-f1.4", "--cats-eye", "0.5"]);
+    choose("Aperture", "Round opening", "ThinLens 26.991 0 0");
+    choose("Camera", "Hole, no lens", "Hole 26.991 0 0");
     viewer.expect_picture("a hole", 0, &["-n", "2", "--preset", "50mm-f1.4", "--camera", "hole"]);
     viewer.close();
 }

@@ -4,8 +4,8 @@
 #define TRACE_BATCH_GLSL
 
 #include "adaptive.glsl"
-#include "sampling.glsl"
 #include "shading.glsl"
+#include "aperture.glsl"
 
 struct TracePush {
     Camera camera;
@@ -38,8 +38,12 @@ vec4 trace_batch(TracePush push, uvec2 pixel, out float moment) {
         vec4 xi = sample_values(keys, push.first_sample + i);
         vec2 offset = film_offset(xi.xy, push.camera.jitter);
         vec2 q = view_plane_point(push.camera, push.lattice.extent, pixel, offset);
-        Ray ray = primary_ray(push.camera, q, concentric_disk(xi.zw));
+        vec3 opening = aperture_point(q, xi.zw);
+        Ray ray = primary_ray(push.camera, q, opening.xy);
         vec3 color = radiance(ray, push.max_bounces, rays);
+        if (APERTURE == APERTURE_CATS_EYE) {
+            color *= opening.z;
+        }
         if (is_finite(color)) {
             vec4 one = vec4(color, 1.0);
             if (IS_ADAPTIVE == 1u) {

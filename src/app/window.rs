@@ -50,7 +50,7 @@ struct Open {
     shown: (u32, u32),
     /// Lens diameter, focal distance and jitter that were reported last.
     state: [f32; 3],
-    /// Likewise, camera model and field of view in degrees.
+    /// Likewise, camera model, field of view in degrees, blades and cat's eye.
     view: String,
     occluded: bool,
 }
@@ -284,7 +284,8 @@ impl Open {
             log::debug!("lens {} {} jitter {}", state[0], state[1], state[2]);
             self.state = state;
         }
-        let view = format!("{:?} {:.3}", estimator.model, estimator.camera.vfov_radians.to_degrees());
+        let (vfov, aperture) = (estimator.camera.vfov_radians.to_degrees(), &estimator.aperture);
+        let view = format!("{:?} {vfov:.3} {} {}", estimator.model, aperture.blades, aperture.cats_eye);
         if view != self.view {
             log::debug!("view {view}");
             self.view = view;

@@ -2,10 +2,11 @@
 
 use super::parse_size;
 use crate::error::Result;
-use crate::scene::{self, BUILTINS, CameraModel, SceneRef};
+use crate::scene::{self, ApertureImage, BUILTINS, CameraModel, SceneRef};
 use crate::settings::{DEFAULT_SAMPLES, Overlay, PRESETS, Preset, Sampler, Settings};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
+use std::path::PathBuf;
 
 /// Samples per pixel that the viewer goes for, unless another number is asked for.
 const DEFAULT_VIEW_SAMPLES: u32 = 256;
@@ -45,6 +46,26 @@ pub struct SettingsArgs {
     /// Turn the picture of a hole upright: on the film it is upside down
     #[arg(long)]
     upright: bool,
+    /// The opening's shape: an iris of so many blades, 3 to 16; 0 is a disc [default: the scene's]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    blades: Option<u32>,
+    /// Turns the iris, anticlockwise, in degrees [default: the scene's]
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    blade_rotation: Option<f32>,
+    /// How far the blades' edges are bent: 0 a polygon, 1 a disc [default: the scene's]
+    #[arg(long, value_name = "R", allow_negative_numbers = true)]
+    roundness: Option<f32>,
+    /// The opening's height over its width, 0.1 to 10; the longer is the diameter [default: the scene's]
+    #[arg(long, value_name = "A", allow_negative_numbers = true)]
+    anamorphic: Option<f32>,
+    /// The shape of a PNG: light comes in where it is bright
+    #[arg(long, value_name = "FILE.png")]
+    aperture_image: Option<PathBuf>,
+    /// Optical vignetting: how far the lens's front rim is off its centre, seen from the picture's corner,
+    /// in diameters, up to 1; highlights turn into cat's eyes there, and the corners darken [default: the
+    /// scene's]
+    #[arg(long, value_name = "C", allow_negative_numbers = true)]
+    cats_eye: Option<f32>,
     /// Distance of the plane in focus, in scene units along the axis [default: the scene's]
     #[arg(long, value_name = "L", allow_negative_numbers = true)]
     focal_distance: Option<f32>,
@@ -184,6 +205,15 @@ impl SettingsArgs {
         }
         estimator.hole.diameter = self.hole_diameter.unwrap_or(estimator.hole.diameter);
         estimator.hole.upright |= self.upright;
+        let aperture = &mut estimator.aperture;
+        aperture.blades = self.blades.unwrap_or(aperture.blades);
+        aperture.rotation_degrees = self.blade_rotation.unwrap_or(aperture.rotation_degrees);
+        aperture.roundness = self.roundness.unwrap_or(aperture.roundness);
+        aperture.anamorphic = self.anamorphic.unwrap_or(aperture.anamorphic);
+        aperture.cats_eye = self.cats_eye.unwrap_or(aperture.cats_eye);
+        if let Some(path) = &self.aperture_image {
+            aperture.image = Some(ApertureImage::read(path)?);
+        }
         estimator.lens.focal_distance = self.focal_distance.unwrap_or(estimator.lens.focal_distance);
         estimator.jitter = self.jitter.unwrap_or(estimator.jitter);
         estimator.max_bounces = self.max_bounces.unwrap_or(estimator.max_bounces);

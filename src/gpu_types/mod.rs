@@ -2,8 +2,10 @@
 //! offsets against the compiled shaders.
 #![allow(missing_docs, reason = "the fields are documented where the shaders declare them")]
 
+mod aperture;
 mod scene;
 
+pub use aperture::{Aperture, ApertureBuffer, aperture_constant, aperture_sums};
 pub use scene::{SceneData, Tree};
 
 use crate::scene::{CameraModel, Hole};

@@ -5,6 +5,7 @@
 mod accumulate;
 mod adaptive;
 mod blue_noise;
+mod opening;
 mod pick;
 mod resolve;
 mod select;
@@ -13,6 +14,7 @@ mod trace;
 pub use accumulate::Accumulate;
 pub use adaptive::Adaptive;
 pub use blue_noise::BlueNoiseTile;
+pub use opening::Opening;
 pub use pick::Pick;
 pub use resolve::Resolve;
 pub use select::Select;

@@ -1,6 +1,6 @@
 //! Traces a batch of samples for each pixel of a lattice into the tracing image.
 
-use super::{Adaptive, BlueNoiseTile};
+use super::{Adaptive, BlueNoiseTile, Opening};
 use crate::error::{Error, Result};
 use crate::gpu_types::{SceneData, TracePush};
 use crate::vulkan::{
@@ -29,8 +29,8 @@ const MOST_TREE_RECORDS: usize = 1 << 25;
 /// `SPELLED_OUT` of bvh.glsl: where the stack is deeper, a step goes through the rest of it in loops.
 const SPELLED_OUT_STACK: u64 = 20;
 
-/// The bits of a sample index, which the Sobol sequence goes through.
-const SAMPLER_LOOP_STEPS: u64 = 24;
+/// The bits of a sample index, which the Sobol sequence goes through, and the searches in an aperture's image.
+const SAMPLER_LOOP_STEPS: u64 = 24 + 16;
 
 /// A scene on the device.
 pub struct SceneBuffers {
@@ -141,7 +141,7 @@ impl Trace {
     pub const SHADER: Shader = shader!("trace");
 
     /// Compiles the pass from its shader, or one with the same interface, for the constants of an
-    /// estimator and a scene's numbers of things.
+    /// estimator and of its aperture, and a scene's numbers of things.
     ///
     /// # Errors
     /// What Vulkan says.
@@ -149,14 +149,16 @@ impl Trace {
         device: &Arc<Device>,
         shader: Shader,
         estimator: [u32; 2],
+        aperture: u32,
         scene: &SceneBuffers,
         tile: &BlueNoiseTile,
     ) -> Result<Self> {
-        let pipeline = ComputePipeline::new(device, shader, &scene.constants(estimator))?;
+        let constants = [scene.constants(estimator), vec![aperture]].concat();
+        let pipeline = ComputePipeline::new(device, shader, &constants)?;
         Ok(Self { pipeline, tile: tile.clone() })
     }
 
-    /// From `scene` into the tracing image `batch`, counting into `counters`. Once some pixels have stopped,
+    /// From `scene`, seen through `opening`, into the tracing image `batch`, counting into `counters`. Once some pixels have stopped,
     /// `list` of `adaptive` holds those to trace.
     ///
     /// # Errors
@@ -164,6 +166,7 @@ impl Trace {
     pub fn bind(
         &self,
         scene: &SceneBuffers,
+        opening: &Opening,
         batch: &Arc<Image>,
         counters: &Arc<Buffer>,
         adaptive: &Adaptive,
@@ -171,6 +174,7 @@ impl Trace {
     ) -> Result<BindingSet> {
         let front = [Binding::Image(Arc::clone(batch)), Binding::Buffer(Arc::clone(counters))];
         let mut bindings = scene.bindings(&front);
+        bindings.extend(opening.bindings());
         bindings.extend([adaptive.bind_list(13, list), adaptive.bind_batch_moments(), self.tile.binding()]);
         BindingSet::new(&self.pipeline, &bindings)
     }

@@ -60,6 +60,14 @@ impl Projection {
         }
     }
 
+    /// Where a film position lies from the picture's middle, as a share of the way to a corner, y up.
+    pub(super) fn way_to_corner(&self, pixel: [u32; 2], offset: [f64; 2]) -> [f64; 2] {
+        let [width, height] = self.size;
+        let half_diagonal = width.hypot(height) / 2.0;
+        let [x, y] = [0, 1].map(|axis| f64::from(pixel[axis]) + 0.5 + offset[axis]);
+        [(x - width / 2.0) / half_diagonal, (height / 2.0 - y) / half_diagonal]
+    }
+
     /// The ray from the lens point `disk` (of the unit disk) through the point where the centre ray
     /// of the film position meets the focal plane. Without a lens: from the film position through that
     /// point of the hole, where it starts.

@@ -5,6 +5,7 @@
 //! Same: the sample values, bit for bit. Different: f64 instead of f32, textbook formulas instead of
 //! rearranged ones, and so a different answer next to edges, where rounding decides what a ray hits.
 
+pub mod aperture;
 mod camera;
 pub mod film;
 pub mod intersect;
@@ -12,6 +13,7 @@ pub mod sampler;
 pub mod shading;
 pub mod tone;
 
+use crate::scene::{Aperture, CameraModel};
 use crate::settings::Estimator;
 use camera::Projection;
 use film::Film;
@@ -54,11 +56,26 @@ impl<'a> Reference<'a> {
         let xi = sampler::sample_values(self.estimator.sampler, self.estimator.seed, pixel, index, 0);
         let jitter = f64::from(self.estimator.jitter);
         let offset = [(xi[0] - 0.5) * jitter, (xi[1] - 0.5) * jitter];
-        self.trace(pixel, offset, sampler::concentric_disk([xi[2], xi[3]]))
+        let estimator = self.estimator;
+        let lens = [xi[2], xi[3]];
+        let (point, share) = match estimator.model {
+            CameraModel::Pinhole => ([0.0; 2], 1.0),
+            CameraModel::ThinLens => {
+                let film = self.projection.way_to_corner(pixel, offset);
+                aperture::point(&estimator.aperture, film, lens)
+            }
+            // Without a lens there is no rim before it.
+            CameraModel::Hole => {
+                let aperture = Aperture { cats_eye: 0.0, ..estimator.aperture.clone() };
+                aperture::point(&aperture, [0.0; 2], lens)
+            }
+        };
+        let sample = self.trace(pixel, offset, point);
+        Sample { radiance: share * sample.radiance, ..sample }
     }
 
     /// The sample of a film position, `offset` pixels from this pixel's centre, and a point of the
-    /// unit disk on the lens.
+    /// lens, whose radius is one.
     pub fn trace(&self, pixel: [u32; 2], offset: [f64; 2], disk: [f64; 2]) -> Sample {
         let ray = self.projection.primary_ray(pixel, offset, disk);
         let scene = &*self.estimator.scene;

@@ -14,10 +14,14 @@ pub use pick::{Picked, Surface};
 pub use tally::Progress;
 
 use crate::error::{Error, Result};
-use crate::gpu_types::{Counters, ResolvePush, SceneData, estimator_constants};
-use crate::passes::{Accumulate, BlueNoiseTile, Pick, Resolve, SceneBuffers, Select, Shaders, Trace};
-use crate::scene::SceneRef;
-use crate::settings::{Overlay, Settings};
+use crate::gpu_types::{
+    ApertureBuffer, Counters, ResolvePush, SceneData, aperture_constant, aperture_sums, estimator_constants,
+};
+use crate::passes::{
+    Accumulate, BlueNoiseTile, Opening, Pick, Resolve, SceneBuffers, Select, Shaders, Trace,
+};
+use crate::scene::{ApertureImage, SceneRef};
+use crate::settings::{Estimator, Overlay, Settings};
 use crate::vulkan::{BindingSet, Buffer, Device, FRAMES_IN_FLIGHT, Image, Recording, Residence, SOFTWARE};
 use film::Film;
 use pick::Question;
@@ -45,6 +49,10 @@ pub struct Renderer {
     shaders: Shaders,
     passes: Option<EstimatorPasses>,
     tile: BlueNoiseTile,
+    opening: Opening,
+    opening_image: Option<ApertureImage>,
+    /// What was recorded last.
+    opening_shape: Option<ApertureBuffer>,
     resolve: Resolve,
     counters: Arc<Buffer>,
     tally: Tally,
@@ -81,6 +89,8 @@ struct LoadedScene {
     scene: SceneRef,
     buffers: SceneBuffers,
     trace: Trace,
+    /// For which it is compiled: see [`aperture_constant`].
+    aperture: u32,
     /// Once something was asked of it.
     pick: Option<Pick>,
 }
@@ -107,6 +117,9 @@ impl Renderer {
             shaders,
             passes: None,
             tile: BlueNoiseTile::new(device)?,
+            opening: Opening::new(device, &[])?,
+            opening_image: None,
+            opening_shape: None,
             resolve: Resolve::new(device, shaders.resolve)?,
             counters: Arc::new(Buffer::new(device, "counters", size, Residence::Device)?),
             tally: Tally::new(device)?,
@@ -154,8 +167,9 @@ impl Renderer {
             self.passes = Some(self.compile_passes(constants, estimator.is_adaptive())?);
         }
         if self.scene.as_ref().is_none_or(|loaded| loaded.scene != estimator.scene) {
-            self.load_scene(&estimator.scene, constants)?;
+            self.load_scene(&estimator.scene, constants, aperture_constant(estimator))?;
         }
+        self.fit_opening(estimator, constants)?;
         self.largest_batch = self.fit_loops(estimator.max_bounces)?;
         let fits = self.film.as_ref().is_some_and(|film| film.film.extent() == estimator.size);
         if let (false, Some(passes)) = (fits, &self.passes) {
@@ -164,8 +178,8 @@ impl Renderer {
             self.film = Some(Film::new(&self.device, estimator.size, passes, &self.resolve)?);
         }
         if let (None, Some(loaded), Some(film)) = (&self.trace_bindings, &self.scene, &self.film) {
-            let bind =
-                |list| loaded.trace.bind(&loaded.buffers, &film.batch, &self.counters, &film.adaptive, list);
+            let (scene, batch, adaptive) = (&loaded.buffers, &film.batch, &film.adaptive);
+            let bind = |list| loaded.trace.bind(scene, &self.opening, batch, &self.counters, adaptive, list);
             self.trace_bindings = Some([bind(0)?, bind(1)?]);
             restart = true;
         }
@@ -206,13 +220,35 @@ impl Renderer {
         Ok(EstimatorPasses { constants, accumulate, select })
     }
 
-    fn load_scene(&mut self, scene: &SceneRef, constants: [u32; 2]) -> Result<()> {
+    /// Makes the trace pass and what it binds fit the aperture.
+    fn fit_opening(&mut self, estimator: &Estimator, constants: [u32; 2]) -> Result<()> {
+        let image = &estimator.aperture.image;
+        if *image != self.opening_image {
+            self.device.wait_idle()?;
+            self.trace_bindings = None;
+            self.opening =
+                Opening::new(&self.device, &image.as_ref().map(aperture_sums).unwrap_or_default())?;
+            (self.opening_image, self.opening_shape) = (image.clone(), None);
+        }
+        let aperture = aperture_constant(estimator);
+        if let Some(loaded) = self.scene.as_mut().filter(|loaded| loaded.aperture != aperture) {
+            self.device.wait_idle()?;
+            self.trace_bindings = None;
+            let shader = self.shaders.trace;
+            loaded.trace =
+                Trace::new(&self.device, shader, constants, aperture, &loaded.buffers, &self.tile)?;
+            loaded.aperture = aperture;
+        }
+        Ok(())
+    }
+
+    fn load_scene(&mut self, scene: &SceneRef, constants: [u32; 2], aperture: u32) -> Result<()> {
         self.device.wait_idle()?;
         (self.scene, self.trace_bindings) = (None, None);
         let buffers = SceneBuffers::new(&self.device, &SceneData::new(scene))?;
-        let trace = Trace::new(&self.device, self.shaders.trace, constants, &buffers, &self.tile)?;
+        let trace = Trace::new(&self.device, self.shaders.trace, constants, aperture, &buffers, &self.tile)?;
         self.tally.forget_scene();
-        self.scene = Some(LoadedScene { scene: scene.clone(), buffers, trace, pick: None });
+        self.scene = Some(LoadedScene { scene: scene.clone(), buffers, trace, aperture, pick: None });
         Ok(())
     }
 

@@ -3,7 +3,7 @@
 use super::schedule::{self, Cursor, Pass, Stage, reach};
 use super::tally::Work;
 use super::{Pace, Renderer};
-use crate::gpu_types::{AccumulatePush, Camera, Counters, SelectPush, TracePush};
+use crate::gpu_types::{AccumulatePush, ApertureBuffer, Camera, Counters, SelectPush, TracePush};
 use crate::passes::Adaptive;
 use crate::settings::{Estimator, Settings};
 use crate::vulkan::Recording;
@@ -30,6 +30,11 @@ impl Renderer {
         recording.barrier();
         // A preview shows no more of the tracing image than what it has filled.
         self.record_clear(recording, !pace.preview);
+        let shape = ApertureBuffer::new(&settings.estimator);
+        if self.opening_shape != Some(shape) {
+            self.opening.record(recording, &shape);
+            self.opening_shape = Some(shape);
+        }
         recording.clear_buffer(&self.counters, size_of::<Counters>() as u64);
         self.tally.start(recording, frame);
         let mut done = Work::default();

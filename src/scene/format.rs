@@ -6,8 +6,8 @@ use super::material_format::{LightColor, MaterialList, MatteTable, MirrorTable, 
 use super::mesh::{Mesh, Placement};
 use super::number::{Count, Extent, NonNegative, Positive, Rgb, Vector};
 use super::{
-    Aabb, Background, Camera, CameraModel, Hole, Lens, Light, LightKind, Plane, Scene, Shaded, Sphere,
-    Triangle, VFOV_DEGREES,
+    Aabb, Aperture, ApertureImage, Background, Camera, CameraModel, Hole, Lens, Light, LightKind, Plane,
+    Scene, Shaded, Sphere, Triangle, VFOV_DEGREES,
 };
 use glam::Vec3;
 use serde::Deserialize;
@@ -70,6 +70,12 @@ struct CameraTable {
     hole_diameter: Option<NonNegative>,
     #[serde(default)]
     upright: bool,
+    blades: Option<u32>,
+    blade_rotation_degrees: Option<f32>,
+    roundness: Option<f32>,
+    anamorphic: Option<f32>,
+    cats_eye: Option<f32>,
+    aperture_image: Option<Spanned<String>>,
 }
 
 #[derive(Deserialize, Default, Clone, Copy)]
@@ -183,7 +189,7 @@ impl SceneFile {
     /// Files that the scene names lie in `folder`, unless their paths say otherwise.
     pub(super) fn into_scene(self, name: &str, folder: &Path) -> Result<Scene, Fault> {
         let size = [self.size[0].0, self.size[1].0];
-        let View { camera, model, lens, hole } = camera(&self.camera, size)?;
+        let View { camera, model, lens, hole, aperture } = camera(&self.camera, size, folder)?;
         let background = background(self.background.as_ref())?;
         let ambient = self.ambient.as_ref().map_or(Vec3::ZERO, LightColor::radiance);
         let lights = self.lights()?;
@@ -199,6 +205,7 @@ impl SceneFile {
             model,
             lens,
             hole,
+            aperture,
             size,
             max_bounces: self.max_bounces.0,
             background,
@@ -277,7 +284,7 @@ impl MeshTable {
     }
 }
 
-fn camera(table: &Spanned<CameraTable>, size: [u32; 2]) -> Result<View, Fault> {
+fn camera(table: &Spanned<CameraTable>, size: [u32; 2], folder: &Path) -> Result<View, Fault> {
     let span = table;
     let table = table.get_ref();
     let vfov_radians = match (&table.vfov_degrees, &table.view_distance, &table.pixel_size) {
@@ -316,7 +323,31 @@ fn camera(table: &Spanned<CameraTable>, size: [u32; 2]) -> Result<View, Fault> {
         },
         lens: Lens { diameter, focal_distance: table.focal_distance.f32() },
         hole: Hole { diameter: hole, upright: table.upright },
+        aperture: aperture(span, folder)?,
     })
+}
+
+fn aperture(table: &Spanned<CameraTable>, folder: &Path) -> Result<Aperture, Fault> {
+    let CameraTable {
+        blades, blade_rotation_degrees, roundness, anamorphic, cats_eye, aperture_image, ..
+    } = table.get_ref();
+    let read = |file: &Spanned<String>| {
+        let image = ApertureImage::read(&folder.join(file.get_ref()));
+        image.map_err(|error| fault(file, &error.to_string()))
+    };
+    let plain = Aperture::default();
+    let aperture = Aperture {
+        blades: blades.unwrap_or(plain.blades),
+        rotation_degrees: blade_rotation_degrees.unwrap_or(plain.rotation_degrees),
+        roundness: roundness.unwrap_or(plain.roundness),
+        anamorphic: anamorphic.unwrap_or(plain.anamorphic),
+        cats_eye: cats_eye.unwrap_or(plain.cats_eye),
+        image: aperture_image.as_ref().map(read).transpose()?,
+    };
+    match aperture.fault() {
+        Some(message) => Err(fault(table, &message)),
+        None => Ok(aperture),
+    }
 }
 
 /// What the camera's table says.
@@ -325,6 +356,7 @@ struct View {
     model: CameraModel,
     lens: Lens,
     hole: Hole,
+    aperture: Aperture,
 }
 
 fn background(table: Option<&Spanned<BackgroundTable>>) -> Result<Background, Fault> {

@@ -1,5 +1,6 @@
 //! What is rendered, as plain values. Nothing here knows of a GPU.
 
+mod aperture;
 mod builtin;
 mod bvh;
 mod camera;
@@ -15,6 +16,7 @@ mod optics;
 mod shape;
 mod stage;
 
+pub use aperture::{Aperture, ApertureImage, BLADES, Mask};
 pub use builtin::{BUILTINS, Builtin};
 pub use bvh::{Bounded, Bvh, Node, Record};
 pub use camera::{Camera, CameraModel, Frame, Hole, Lens};
@@ -52,6 +54,8 @@ pub struct Scene {
     pub lens: Lens,
     /// The hole of a camera without a lens.
     pub hole: Hole,
+    /// The shape of either.
+    pub aperture: Aperture,
     /// The picture's size in pixels, unless another is asked for.
     pub size: [u32; 2],
     /// How many reflections are followed, unless another number is asked for.

@@ -2,7 +2,8 @@
 
 use super::mesh::{Mesh, Placement};
 use super::{
-    Background, Camera, CameraModel, Checker, Hole, Lens, Light, LightKind, Material, Plane, Scene, Shaded,
+    Aperture, Background, Camera, CameraModel, Checker, Hole, Lens, Light, LightKind, Material, Plane, Scene,
+    Shaded,
 };
 use crate::error::Result;
 use glam::{DVec3, Vec3};
@@ -57,6 +58,7 @@ pub(super) fn around(mesh: &Mesh, name: &str) -> Result<Scene> {
         model: CameraModel::default(),
         lens: Lens { diameter: 0.0, focal_distance: 1.0 },
         hole: Hole { diameter: 0.0, upright: false },
+        aperture: Aperture::default(),
         size: SIZE,
         max_bounces: 5,
         background: Background { horizon: Vec3::new(0.92, 0.9, 0.87), zenith: Vec3::new(0.24, 0.44, 0.78) },

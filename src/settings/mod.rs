@@ -6,7 +6,7 @@ pub use preset::{PRESETS, Preset};
 
 use crate::error::{Error, Result};
 use crate::scene::{
-    Camera, CameraModel, Hole, Lens, MAX_BOUNCES, MAX_EXTENT, MAX_LENGTH, MIN_LENGTH, SceneRef,
+    Aperture, Camera, CameraModel, Hole, Lens, MAX_BOUNCES, MAX_EXTENT, MAX_LENGTH, MIN_LENGTH, SceneRef,
 };
 use std::ops::RangeInclusive;
 
@@ -65,6 +65,8 @@ pub struct Estimator {
     pub lens: Lens,
     /// The hole of a camera without a lens.
     pub hole: Hole,
+    /// The shape of either.
+    pub aperture: Aperture,
     /// Width and height in pixels.
     pub size: [u32; 2],
     /// Width of the square around a pixel's centre that its samples fall in, in pixels.
@@ -144,6 +146,7 @@ impl Settings {
                 model: scene.model,
                 lens: scene.lens,
                 hole: scene.hole,
+                aperture: scene.aperture.clone(),
                 size: scene.size,
                 max_bounces: scene.max_bounces,
                 jitter: DEFAULT_JITTER,
@@ -168,6 +171,9 @@ impl Settings {
         in_range("lens-diameter", lens.diameter, 0.0, MAX_LENGTH)?;
         in_range("focal-distance", lens.focal_distance, MIN_LENGTH, MAX_LENGTH)?;
         in_range("hole-diameter", hole.diameter, 0.0, MAX_LENGTH)?;
+        if let Some(fault) = self.estimator.aperture.fault() {
+            return Err(Error::OutOfRange(fault));
+        }
         in_range("jitter", *jitter, 0.0, MAX_JITTER)?;
         in_range("max-bounces", *max_bounces, 0, MAX_BOUNCES)?;
         in_range("noise-threshold", *noise_threshold, 0.0, 1.0)?;

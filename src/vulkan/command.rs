@@ -193,6 +193,14 @@ impl Recording<'_> {
         self.barrier();
     }
 
+    /// Writes up to 64 KiB to the start of a buffer, a multiple of four bytes.
+    pub fn update_buffer(&mut self, buffer: &Buffer, bytes: &[u8]) {
+        self.barrier();
+        // SAFETY: recording is under way; callers give no more than the buffer holds.
+        unsafe { self.device().raw.cmd_update_buffer(self.raw(), buffer.raw, 0, bytes) };
+        self.barrier();
+    }
+
     /// Copies the first `size` bytes.
     pub fn copy_buffer(&mut self, from: &Buffer, to: &Buffer, size: u64) {
         let region = [vk::BufferCopy::default().size(size)];

@@ -35,7 +35,7 @@ pub struct Viewer {
     pub shown: RefCell<(u32, u32)>,
     /// Lens diameter, focal distance and jitter.
     pub state: RefCell<[f32; 3]>,
-    /// Camera model and field of view in degrees.
+    /// Camera model, field of view in degrees, blades, cat's eye.
     pub view: RefCell<String>,
     /// All samples that were shown, since it was cleared last.
     pub history: RefCell<Vec<u32>>,

@@ -1,6 +1,6 @@
 //! The part of the panel that says what forms the picture: lens, pinhole or hole.
 
-use super::widgets::{Layout, named, note_item, tooltip};
+use super::widgets::{Layout, combo, named, note_item, tooltip};
 use super::{LOGARITHMIC, Panel};
 use crate::scene::{CameraModel, MAX_LENGTH, MIN_LENGTH};
 use crate::settings::{Estimator, PRESETS};
@@ -116,14 +116,8 @@ impl Panel {
 
 fn choose_model(ui: &Ui, estimator: &mut Estimator, layout: &mut Layout) {
     let model = &mut estimator.model;
-    let label = MODELS.iter().find(|entry| entry.0 == *model).map_or("", |entry| entry.1);
-    ui.set_next_item_width(-1.0);
-    let combo = ui.begin_combo("##camera", label);
-    note_item(ui, "Camera", layout);
-    if combo.is_none() {
-        tooltip(ui, "What forms the picture.");
-    }
-    if let Some(_combo) = combo {
+    let shown = MODELS.iter().find(|entry| entry.0 == *model).map_or("", |entry| entry.1);
+    combo(ui, "Camera", shown, "What forms the picture.", layout, |layout| {
         for (choice, label, help) in MODELS {
             if ui.selectable_config(label).selected(choice == *model).build() {
                 *model = choice;
@@ -131,17 +125,12 @@ fn choose_model(ui: &Ui, estimator: &mut Estimator, layout: &mut Layout) {
             note_item(ui, label, layout);
             tooltip(ui, help);
         }
-    }
+    });
 }
 
 fn choose_preset(ui: &Ui, estimator: &mut Estimator, layout: &mut Layout) {
-    ui.set_next_item_width(-1.0);
-    let combo = ui.begin_combo("##preset", "Known lenses");
-    note_item(ui, "Known lenses", layout);
-    if combo.is_none() {
-        tooltip(ui, "Puts a lens that people know in front of the camera. What is in focus stays in focus.");
-    }
-    if let Some(_combo) = combo {
+    let help = "Puts a lens that people know in front of the camera. What is in focus stays in focus.";
+    combo(ui, "Known lenses", "Known lenses", help, layout, |layout| {
         for preset in &PRESETS {
             if ui.selectable(preset.label) {
                 preset.apply(estimator);
@@ -149,7 +138,7 @@ fn choose_preset(ui: &Ui, estimator: &mut Estimator, layout: &mut Layout) {
             note_item(ui, preset.label, layout);
             tooltip(ui, preset.help);
         }
-    }
+    });
 }
 
 fn f_number(ui: &Ui, estimator: &mut Estimator, layout: &mut Layout) {

@@ -1,12 +1,13 @@
 //! The panel.
 
+mod aperture;
 mod lens;
 mod numbers;
 mod widgets;
 
 use crate::error::Error;
 use crate::renderer::{Picked, Progress};
-use crate::scene::{self, BUILTINS, SceneRef};
+use crate::scene::{self, ApertureImage, BUILTINS, CameraModel, SceneRef};
 use crate::settings::{DEFAULT_JITTER, Overlay, Settings};
 use imgui::{Condition, SliderFlags, Ui};
 use widgets::{Layout, named, note_item, section, tooltip};
@@ -35,6 +36,8 @@ pub(super) struct Panel {
     /// What the renderer took last, and the name of its scene.
     accepted: (Settings, String),
     max_points: u32,
+    /// The last aperture that was an image.
+    image: Option<ApertureImage>,
     /// As named: a built-in or a file.
     scene: String,
     /// The choices: the built-ins, and the file that the viewer was opened with.
@@ -69,6 +72,7 @@ impl Panel {
             initial: settings.clone(),
             accepted: (settings.clone(), scene.clone()),
             max_points: settings.samples.max(MAX_POINTS),
+            image: settings.estimator.aperture.image.clone(),
             settings,
             scene,
             scenes,
@@ -109,6 +113,9 @@ impl Panel {
                 note_item(ui, "Reset", &mut layout);
                 tooltip(ui, "Back to the settings that the scene was opened with.");
                 section(ui, "Lens", true, &mut layout, |layout| self.opening(ui, layout));
+                if self.settings.estimator.model != CameraModel::Pinhole {
+                    section(ui, "Aperture shape", false, &mut layout, |layout| self.shape(ui, layout));
+                }
                 section(ui, "What is sharp", true, &mut layout, |_| self.numbers(ui, status.picked));
                 section(ui, "Sampling", false, &mut layout, |layout| self.sampling(ui, layout));
                 section(ui, "View", false, &mut layout, |layout| self.view(ui, layout));
@@ -175,6 +182,11 @@ impl Panel {
             }
             Err(error) => self.message = Some(error.to_string()),
         }
+    }
+
+    fn shape(&mut self, ui: &Ui, layout: &mut Layout) {
+        let estimator = &mut self.settings.estimator;
+        aperture::edit(ui, &mut estimator.aperture, self.image.as_ref(), estimator.model, layout);
     }
 
     fn main_sliders(&mut self, ui: &Ui, layout: &mut Layout) {

@@ -55,3 +55,23 @@ pub(super) fn section(
         content(layout);
     }
 }
+
+/// A list of choices that folds out, as wide as the panel.
+pub(super) fn combo(
+    ui: &Ui,
+    name: &'static str,
+    shown: &str,
+    help: &str,
+    layout: &mut Layout,
+    choices: impl FnOnce(&mut Layout),
+) {
+    ui.set_next_item_width(-1.0);
+    match ui.begin_combo(format!("##{name}"), shown) {
+        Some(_open) => choices(layout),
+        // Once it is open, the last item is not the list but something in it.
+        None => {
+            note_item(ui, name, layout);
+            tooltip(ui, help);
+        }
+    }
+}

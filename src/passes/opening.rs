@@ -1,0 +1,37 @@
+//! The opening that light comes in through, on the device: see `shaders/include/aperture.glsl`.
+
+use crate::error::Result;
+use crate::gpu_types::ApertureBuffer;
+use crate::vulkan::{Binding, Buffer, Device, Recording, Residence, TexelBuffer};
+use std::sync::Arc;
+
+/// What the passes read of it.
+pub struct Opening {
+    shape: Arc<Buffer>,
+    sums: Arc<TexelBuffer>,
+}
+
+impl Opening {
+    /// An opening with these running sums of its image, if it has one. Its shape is to be recorded before it
+    /// is used.
+    ///
+    /// # Errors
+    /// [`crate::error::Error::Memory`], or what Vulkan says.
+    pub fn new(device: &Arc<Device>, sums: &[[f32; 4]]) -> Result<Self> {
+        let size = size_of::<ApertureBuffer>() as u64;
+        Ok(Self {
+            shape: Arc::new(Buffer::new(device, "aperture", size, Residence::Device)?),
+            sums: Arc::new(TexelBuffer::upload(device, "aperture image", sums)?),
+        })
+    }
+
+    /// Writes the shape.
+    pub fn record(&self, recording: &mut Recording<'_>, shape: &ApertureBuffer) {
+        recording.update_buffer(&self.shape, bytemuck::bytes_of(shape));
+    }
+
+    /// Where the shaders read it.
+    pub fn bindings(&self) -> [(u32, Binding); 2] {
+        [(17, Binding::Buffer(Arc::clone(&self.shape))), (18, Binding::Texels(Arc::clone(&self.sums)))]
+    }
+}
