@@ -48,7 +48,7 @@ fn measure(device: &Arc<Device>, name: &str) -> Result<()> {
     let film = Arc::new(Image::rgba32f(device, "film", SIZE)?);
     let counters =
         Arc::new(Buffer::new(device, "counters", size_of::<Counters>() as u64, Residence::Device)?);
-    let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene))?;
+    let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene, estimator.shutter))?;
     let tile = BlueNoiseTile::new(device)?;
     let (trace, accumulate) = (
         Trace::new(device, Trace::SHADER, constants, 0, &scene, &tile)?,

@@ -35,7 +35,7 @@ struct Merged {
 fn record(gpu: &Gpu, settings: &Settings) -> Result<Vec<Vec<[f32; 4]>>> {
     let Settings { estimator, samples, .. } = settings;
     let device = gpu.device();
-    let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene))?;
+    let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene, estimator.shutter))?;
     let tile = BlueNoiseTile::new(device)?;
     let trace = Trace::new(device, gpu.shader("trace"), estimator_constants(estimator), 0, &scene, &tile)?;
     let counters = Buffer::new(device, "counters", size_of::<Counters>() as u64, Residence::Device)?;

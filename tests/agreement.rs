@@ -128,7 +128,7 @@ fn independent_picture(
             let [square, turn] = lens([random.f64(), random.f64()], film);
             let (radius, angle) = (square.sqrt(), TAU * turn);
             let disk = [radius * angle.cos(), radius * angle.sin()];
-            sum += reference.trace(pixel, film.map(|value| value - 0.5), disk).radiance;
+            sum += reference.trace(pixel, film.map(|value| value - 0.5), disk, 0.0).radiance;
         }
         (sum / f64::from(settings.samples)).to_array()
     };

@@ -218,7 +218,7 @@ fn scenes_and_devices_are_listed_and_can_be_named() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let scenes = run(folder.path(), &["scenes"]);
     assert_eq!(scenes.code, 0);
-    for scene in ["version-4", "suffern-boxes", "suffern-mirror"] {
+    for scene in ["version-4", "suffern-boxes", "suffern-mirror", "passing"] {
         assert!(scenes.stdout.contains(scene));
     }
     let devices = run(folder.path(), &["devices"]);
@@ -294,7 +294,7 @@ fn verify_proves_the_device() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let all = run(folder.path(), &["verify", "--size", "32x24", "--samples", "4", "--validation"]);
     assert_eq!((all.code, all.stderr.as_str()), (0, ""), "{}", all.stdout);
-    for scene in ["version-4", "suffern-boxes", "suffern-mirror"] {
+    for scene in ["version-4", "suffern-boxes", "suffern-mirror", "passing"] {
         assert!(
             all.stdout.lines().any(|line| line.starts_with(scene) && line.contains("3072 samples")),
             "{}",

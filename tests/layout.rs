@@ -52,7 +52,8 @@ fn twins() -> Vec<Twin> {
                 roundness,
                 cats_eye,
                 most_cats_eye,
-                cells
+                cells,
+                shutter
             ]
         ),
         twin!("ApertureBuffer", ApertureBuffer, [shape, edges]),

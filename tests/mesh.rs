@@ -369,7 +369,7 @@ fn the_oracle_interpolates_normals() {
             let expected = (a * corners[0] + b * corners[1] + c * corners[2]).normalize();
             for side in [1.0, -1.0] {
                 let direction = -side * outward;
-                let ray = Ray { origin: at - 0.1 * direction, direction };
+                let ray = Ray { origin: at - 0.1 * direction, direction, time: 0.0 };
                 let hit = intersect(&scene, ray, 0.0).expect("it meets the triangle");
                 assert!((hit.distance - 0.1).abs() < 1e-6, "{hit:?}");
                 assert!((hit.normal - side * outward).length() < 1e-6, "{hit:?}");
@@ -394,7 +394,7 @@ fn light_and_mirrors_see_the_shading_normal_above_the_surface() {
             "[[directional]]\ndirection = {direction}\nradiance = 2\n[matte.m]\nka = 0\nkd = 1\ncolor = [1, 1, 1]\n"
         )
     };
-    let down = Ray { origin: DVec3::Y, direction: -DVec3::Y };
+    let down = Ray { origin: DVec3::Y, direction: -DVec3::Y, time: 0.0 };
     let matte = |cosine: f64| DVec3::splat(2.0 / std::f64::consts::PI * cosine);
     for (normal, direction, expected) in [
         ("0 1 0", "[0, 1, 0]", matte(1.0)),
@@ -410,15 +410,15 @@ fn light_and_mirrors_see_the_shading_normal_above_the_surface() {
     }
     // A sum of zero falls back to the geometric normal.
     let zero = floor(["1 0 0", "-1 0 0", "0 0 1"], &light("[0, 1, 0]"));
-    let ray = Ray { origin: DVec3::new(0.0, 1.0, 9.0 - 1e-9), direction: -DVec3::Y };
+    let ray = Ray { origin: DVec3::new(0.0, 1.0, 9.0 - 1e-9), direction: -DVec3::Y, time: 0.0 };
     assert!((radiance(&zero, ray, 0) - matte(0.0)).length() < 1e-3, "almost zero is not zero");
     let zero = floor(["1 0 0", "-1 0 0", "0 1 0"], &light("[0, 1, 0]"));
-    let ray = Ray { origin: DVec3::new(0.0, 1.0, 9.0), direction: -DVec3::Y };
+    let ray = Ray { origin: DVec3::new(0.0, 1.0, 9.0), direction: -DVec3::Y, time: 0.0 };
     assert!((radiance(&zero, ray, 0) - matte(1.0)).length() < 1e-6);
 
     let sky =
         "[background]\nhorizon = [0, 0, 0]\nzenith = [1, 1, 1]\n[mirror.m]\nkr = 1\ncolor = [1, 1, 1]\n";
-    let slanted = Ray { origin: DVec3::Y, direction: DVec3::new(0.6, -0.8, 0.0) };
+    let slanted = Ray { origin: DVec3::Y, direction: DVec3::new(0.6, -0.8, 0.0), time: 0.0 };
     for (normal, height) in [
         ("0 1 0", 0.8_f64),
         // Turned by 10 degrees: the mirrored ray turns by 20.

@@ -168,7 +168,7 @@ fn rays_meet_shapes_where_a_drawing_shows() {
         (at(0.0, 0.0, 40.0), at(0.0, 0.6, 0.8), Some((18.0, at(0.0, -0.6, -0.8), "e"))),
         (at(0.0, 0.0, 40.0), at(1.0, 0.0, 0.0), None),
     ] {
-        let hit = intersect(&scene, Ray { origin, direction }, 0.0);
+        let hit = intersect(&scene, Ray { origin, direction, time: 0.0 }, 0.0);
         let Some((distance, normal, name)) = expected else {
             assert_eq!(hit, None, "{origin} along {direction}");
             continue;
@@ -176,7 +176,7 @@ fn rays_meet_shapes_where_a_drawing_shows() {
         let hit = hit.unwrap_or_else(|| panic!("{origin} along {direction} meets nothing"));
         let close = (hit.distance - distance).abs() < 1e-6 && (hit.normal - normal).length() < 1e-6;
         assert!(close && hit.material == material(name), "{origin} along {direction}: {hit:?}");
-        let beyond = intersect(&scene, Ray { origin, direction }, distance + 1e-3);
+        let beyond = intersect(&scene, Ray { origin, direction, time: 0.0 }, distance + 1e-3);
         assert!(beyond.is_none_or(|beyond| beyond.distance > distance + 1e-3), "{beyond:?} is too near");
     }
 }
@@ -224,7 +224,7 @@ fn pictures_have_the_values_of_their_formulas() {
         (gloss, aside, 0, all(highlight)),
     ] {
         let scene = scene_of(&format!("{CAMERA}{scene}"));
-        let got = radiance(&scene, Ray { origin, direction }, bounces);
+        let got = radiance(&scene, Ray { origin, direction, time: 0.0 }, bounces);
         assert!(
             (got - expected).length() < 1e-6,
             "{origin} along {direction}, {bounces}: {got}, not {expected}"

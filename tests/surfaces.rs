@@ -51,6 +51,7 @@ impl Question {
         Ray {
             origin: Vec3::from_array(self.origin).as_dvec3(),
             direction: Vec3::from_array(self.direction).as_dvec3().normalize(),
+            time: 0.0,
         }
     }
 }
@@ -125,7 +126,7 @@ fn shapes() -> Vec<(&'static str, SceneRef)> {
 /// Its tree is deeper than the part of the shaders' stack that is spelled out.
 fn chain() -> SceneRef {
     let scene = scene_of(&(CAMERA.to_owned() + &one_behind_the_other()));
-    let depth = Bvh::new(&scene).expect("a tree").depth;
+    let depth = Bvh::new(&scene, 1.0).expect("a tree").depth;
     assert!(depth > 20, "the chain's tree is {depth} deep only");
     scene
 }
@@ -172,7 +173,7 @@ fn everything_and_smooth_triangles() -> SceneRef {
         let normals = [14, 15, 16]
             .map(|stream| (across + spread * random_direction(index, stream).as_vec3()).normalize());
         let material = if index % 4 == 0 { mirror } else { shiny };
-        scene.triangles.push(Shaded { shape: Triangle { vertices, normals: Some(normals) }, material });
+        scene.triangles.push(Shaded::still(Triangle { vertices, normals: Some(normals) }, material));
     }
     SceneRef::new(scene)
 }

@@ -32,7 +32,8 @@ fn record_two_passes(gpu: &Gpu, barrier: bool) {
     let (batch, film) = (image("batch"), image("film"));
     let size = size_of::<Counters>() as u64;
     let counters = Arc::new(Buffer::new(device, "counters", size, Residence::Device).expect("a buffer"));
-    let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene)).expect("a scene");
+    let scene =
+        SceneBuffers::new(device, &SceneData::new(&estimator.scene, estimator.shutter)).expect("a scene");
     let tile = BlueNoiseTile::new(device).expect("a tile");
     let (trace, accumulate) = (
         Trace::new(device, Trace::SHADER, constants, 0, &scene, &tile).expect("trace"),
@@ -104,7 +105,7 @@ fn a_missing_layer_is_a_failure() {
 #[test]
 fn every_scene_renders_without_a_message() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    for scene in ["version-4", "suffern-boxes", "suffern-mirror"] {
+    for scene in ["version-4", "suffern-boxes", "suffern-mirror", "passing"] {
         for jitter in ["0", "1", "3"] {
             for output in ["out.png", "out.exr"] {
                 let arguments = [

@@ -21,7 +21,7 @@ fn shown() -> Estimator {
 
 /// The oracle's depth of what the middle of a pixel shows, and the name of its material.
 fn under(estimator: &Estimator, pixel: [u32; 2]) -> (f64, String) {
-    let ray = Reference::new(estimator).trace(pixel, [0.0; 2], [0.0; 2]).ray;
+    let ray = Reference::new(estimator).trace(pixel, [0.0; 2], [0.0; 2], 0.0).ray;
     let hit = intersect::intersect(&estimator.scene, ray, 0.0).expect("a surface");
     let axis = (estimator.camera.look_at - estimator.camera.eye).as_dvec3().normalize();
     let name = estimator.scene.material_names[hit.material as usize].clone();
@@ -37,7 +37,7 @@ fn rest(viewer: &Viewer) {
 fn find(estimator: &Estimator, material: &str) -> [u32; 2] {
     let [width, height] = estimator.size;
     let is = |pixel: [u32; 2]| {
-        let ray = Reference::new(estimator).trace(pixel, [0.0; 2], [0.0; 2]).ray;
+        let ray = Reference::new(estimator).trace(pixel, [0.0; 2], [0.0; 2], 0.0).ray;
         intersect::intersect(&estimator.scene, ray, 0.0)
             .is_some_and(|hit| estimator.scene.material_names[hit.material as usize] == material)
     };

@@ -11,7 +11,7 @@ const uint APERTURE_CATS_EYE = 2u;
 const uint APERTURE_IMAGE = 3u;
 const uint APERTURE_ELLIPSE = 4u;
 
-layout(constant_id = 13) const uint APERTURE = APERTURE_DISC;
+layout(constant_id = 14) const uint APERTURE = APERTURE_DISC;
 
 struct Aperture {
     vec2 stretch; // half its width and height, of an opening of diameter two
@@ -26,6 +26,7 @@ struct Aperture {
     float cats_eye; // how far the second disc is off, in radii, for a film point at distance one
     float most_cats_eye; // and at most
     uvec2 cells; // of the image: columns and rows
+    float shutter; // how long it is open, in seconds
 };
 
 layout(set = 0, binding = 17, std430) readonly buffer ApertureBuffer {
@@ -38,9 +39,7 @@ Aperture aperture;
 
 // To be called first thing in main().
 void keep_aperture() {
-    if (APERTURE != APERTURE_DISC) {
-        aperture = aperture_buffer.shape;
-    }
+    aperture = aperture_buffer.shape;
 }
 
 // Running sums of the image's light, from 0 to 1: of its rows, then within each row. Four to a texel.

@@ -24,6 +24,7 @@ const uint KIND_SMOOTH = 3u; // a bit of TREE_KINDS only: some triangles have no
 
 layout(set = 0, binding = 10) uniform usamplerBuffer tree_records; // three texels each: TreeNode or TreeShape
 layout(set = 0, binding = 11) uniform usamplerBuffer tree_normals; // three texels each
+layout(set = 0, binding = 12) uniform usamplerBuffer tree_velocities; // of its shapes, a second
 
 // Boxes around the children, whose planes stand on a grid of the node's own.
 struct TreeNode {
@@ -74,6 +75,18 @@ TreeShape to_shape(uvec4 record[3]) {
         uintBitsToFloat(record[0].xyz), record[0].w, uintBitsToFloat(record[1].xyz), record[1].w,
         uintBitsToFloat(record[2].xyz), record[2].w
     );
+}
+
+// The shape where it is by now.
+TreeShape shape_now(uvec4 record[3], out vec3 way) {
+    TreeShape shape = to_shape(record);
+    way = vec3(0.0);
+    if (SCENE_MOVES == 1u) {
+        way = ray_time * uintBitsToFloat(texelFetch(tree_velocities, int(shape.index)).xyz);
+        shape.position += way;
+        shape.a += shape.kind == KIND_BOX ? way : vec3(0.0);
+    }
+    return shape;
 }
 
 float intersect_tree_shape(Ray ray, vec3 inverse_direction, TreeShape shape) {
@@ -190,7 +203,8 @@ float search_tree(Ray ray, vec3 inverse_direction, float limit, bool any_will_do
             first = descends ? node.first : first;
             children = descends ? met : children;
         } else {
-            float at = intersect_tree_shape(ray, inverse_direction, to_shape(record));
+            vec3 way;
+            float at = intersect_tree_shape(ray, inverse_direction, shape_now(record, way));
             bool closer = at < distance;
             nearest = closer ? index : nearest;
             distance = closer ? at : distance;
@@ -227,8 +241,9 @@ Hit intersect_tree(Ray ray, vec3 inverse_direction, inout bool given_up) {
     float distance = search_tree(ray, inverse_direction, MISS, false, index, given_up);
     uvec4 record[3];
     fetch_record(index, record);
-    TreeShape shape = to_shape(record);
-    Hit hit = Hit(distance, shape.material, -shape.position, 1.0, vec3(0.0));
+    vec3 way;
+    TreeShape shape = shape_now(record, way);
+    Hit hit = Hit(distance, shape.material, -shape.position, 1.0, vec3(0.0), way);
     if (in_tree(KIND_BOX) && shape.kind == KIND_BOX) {
         intersect_box(ray, inverse_direction, Box(shape.position, shape.a), hit.normal);
         hit.curvature = 0.0;

@@ -21,6 +21,7 @@ struct Hit {
     vec3 normal;
     float curvature;
     vec3 shading_normal; // zero: the surface's own
+    vec3 way; // how far the shape has come by now
 };
 
 // The quadratic with the discriminant taken from the closest approach, which keeps its digits for
@@ -77,37 +78,71 @@ vec3 safe_inverse(vec3 direction) {
     return 1.0 / mix(direction, tiny, lessThan(abs(direction), vec3(1e-20)));
 }
 
-void keep_nearer(inout Hit hit, float distance, uint shape, vec3 normal, float curvature) {
+void keep_nearer(inout Hit hit, float distance, uint shape, vec3 normal, float curvature, vec3 way) {
     if (distance < hit.distance) {
-        hit = Hit(distance, get_material_of_shape(shape), normal, curvature, vec3(0.0));
+        hit = Hit(distance, get_material_of_shape(shape), normal, curvature, vec3(0.0), way);
     }
+}
+
+// A shape of the lists where it is by now.
+Sphere sphere_now(uint i, out vec3 way) {
+    Sphere sphere = get_sphere(i);
+    way = vec3(0.0);
+    if (SCENE_MOVES == 1u) {
+        way = way_of(i);
+        sphere.center += way;
+    }
+    return sphere;
+}
+
+Box box_now(uint i, out vec3 way) {
+    Box box = get_box(i);
+    way = vec3(0.0);
+    if (SCENE_MOVES == 1u) {
+        way = way_of(SPHERE_COUNT + i);
+        box = Box(box.lower + way, box.upper + way);
+    }
+    return box;
+}
+
+Triangle triangle_now(uint i, out vec3 way) {
+    Triangle triangle = get_triangle(i);
+    way = vec3(0.0);
+    if (SCENE_MOVES == 1u) {
+        way = way_of(SPHERE_COUNT + BOX_COUNT + i);
+        triangle.vertex += way;
+    }
+    return triangle;
 }
 
 #include "bvh.glsl"
 
 // The nearest hit, or one with distance MISS. given_up: the search for it took too long.
 Hit intersect_scene(Ray ray, inout bool given_up) {
-    Hit hit = Hit(MISS, 0u, vec3(0.0), 0.0, vec3(0.0));
+    Hit hit = Hit(MISS, 0u, vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
     vec3 inverse_direction = safe_inverse(ray.direction);
     if (has_tree()) {
         hit = intersect_tree(ray, inverse_direction, given_up);
     }
     uint shape = 0u;
+    vec3 way;
     [[unroll]] for (uint i = 0u; i < SPHERE_COUNT; ++i, ++shape) {
-        keep_nearer(hit, intersect_sphere(ray, get_sphere(i)), shape, -get_sphere(i).center, 1.0);
+        Sphere sphere = sphere_now(i, way);
+        keep_nearer(hit, intersect_sphere(ray, sphere), shape, -sphere.center, 1.0, way);
     }
     [[unroll]] for (uint i = 0u; i < BOX_COUNT; ++i, ++shape) {
         vec3 normal;
-        float distance = intersect_box(ray, inverse_direction, get_box(i), normal);
-        keep_nearer(hit, distance, shape, normal, 0.0);
+        float distance = intersect_box(ray, inverse_direction, box_now(i, way), normal);
+        keep_nearer(hit, distance, shape, normal, 0.0, way);
     }
     [[unroll]] for (uint i = 0u; i < TRIANGLE_COUNT; ++i, ++shape) {
-        vec3 normal = cross(get_triangle(i).edge1, get_triangle(i).edge2);
+        Triangle triangle = triangle_now(i, way);
+        vec3 normal = cross(triangle.edge1, triangle.edge2);
         vec2 barycentric;
-        keep_nearer(hit, intersect_triangle(ray, get_triangle(i), barycentric), shape, normal, 0.0);
+        keep_nearer(hit, intersect_triangle(ray, triangle, barycentric), shape, normal, 0.0, way);
     }
     for (uint i = 0u; i < PLANE_COUNT; ++i, ++shape) {
-        keep_nearer(hit, intersect_plane(ray, get_plane(i)), shape, get_plane(i).normal, 0.0);
+        keep_nearer(hit, intersect_plane(ray, get_plane(i)), shape, get_plane(i).normal, 0.0, vec3(0.0));
     }
     return hit;
 }
@@ -125,16 +160,17 @@ bool occluded(Ray ray, float limit, inout bool given_up) {
         uint shape;
         nearest = search_tree(ray, inverse_direction, limit, true, shape, given_up);
     }
+    vec3 way;
     [[unroll]] for (uint i = 0u; i < SPHERE_COUNT; ++i) {
-        nearest = smaller(nearest, intersect_sphere(ray, get_sphere(i)));
+        nearest = smaller(nearest, intersect_sphere(ray, sphere_now(i, way)));
     }
     [[unroll]] for (uint i = 0u; i < BOX_COUNT; ++i) {
         vec3 normal;
-        nearest = smaller(nearest, intersect_box(ray, inverse_direction, get_box(i), normal));
+        nearest = smaller(nearest, intersect_box(ray, inverse_direction, box_now(i, way), normal));
     }
     [[unroll]] for (uint i = 0u; i < TRIANGLE_COUNT; ++i) {
         vec2 barycentric;
-        nearest = smaller(nearest, intersect_triangle(ray, get_triangle(i), barycentric));
+        nearest = smaller(nearest, intersect_triangle(ray, triangle_now(i, way), barycentric));
     }
     for (uint i = 0u; i < PLANE_COUNT; ++i) {
         nearest = smaller(nearest, intersect_plane(ray, get_plane(i)));

@@ -21,6 +21,7 @@ const uvec4 BLUE_NOISE_SCRAMBLE = uvec4(0x0e7ef62eu, 0xeec210f3u, 0xbced7d2au, 0
 
 // Dimension blocks. FILM_AND_LENS holds the film jitter in xy and the lens point in zw.
 const uint BLOCK_FILM_AND_LENS = 0u;
+const uint BLOCK_TIME = 1u; // in x when the light passes the shutter
 
 // The pcg4d hash: M. Jarzynski and M. Olano, "Hash Functions for GPU Rendering",
 // JCGT 9(3), 2020, section 4.2.
@@ -80,6 +81,20 @@ vec4 sample_values(uvec4 keys, uint sample_index) {
         bits = pcg4d(uvec4(keys.xy, sample_index, keys.z));
     }
     return vec4(bits >> 8u) * (1.0 / 16777216.0);
+}
+
+// A value in [0, 1) for the time: the points of the sequence's first dimension in another order, so that
+// it has nothing to do with film and lens: B. Burley, as above, section 4.
+float time_value(uvec4 keys, uint sample_index) {
+    if (SAMPLER == SAMPLER_RANDOM) {
+        return sample_values(keys, sample_index).x;
+    }
+    const uvec2 BLUE_NOISE_ORDER = uvec2(0x6c8e9cf5u, 0x3f84d5b5u);
+    uvec2 order = SAMPLER == SAMPLER_BLUE_NOISE ? BLUE_NOISE_ORDER : keys.xy;
+    uint shuffled = bitfieldReverse(scramble_upwards(uvec4(bitfieldReverse(sample_index)), order.xxxx).x);
+    uint bits = bitfieldReverse(scramble_upwards(uvec4(shuffled), order.yyyy).x);
+    bits ^= SAMPLER == SAMPLER_BLUE_NOISE ? keys.x : 0u;
+    return float(bits >> 8u) * (1.0 / 16777216.0);
 }
 
 // Where on the film a sample falls, in pixels from its start pixel's centre, x right and y down,

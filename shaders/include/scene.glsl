@@ -63,6 +63,12 @@ layout(constant_id = 8) const uint MATERIAL_COUNT = 1u;
 // rays about three times as fast. A GPU would run out of registers.
 layout(constant_id = 9) const uint SCENE_IS_KEPT = 0u;
 
+// Whether any shape moves.
+layout(constant_id = 13) const uint SCENE_MOVES = 0u;
+
+// Of the sample that is traced: seconds from the middle of the exposure, where the shapes are as given.
+float ray_time = 0.0;
+
 layout(set = 0, binding = 2, std430) readonly buffer Spheres { Sphere spheres[]; };
 layout(set = 0, binding = 3, std430) readonly buffer Boxes { Box boxes[]; };
 layout(set = 0, binding = 4, std430) readonly buffer Triangles { Triangle triangles[]; };
@@ -72,6 +78,8 @@ layout(set = 0, binding = 7, std430) readonly buffer Materials { Material materi
 layout(set = 0, binding = 8, std430) readonly buffer Lights { Light lights[]; };
 layout(set = 0, binding = 9, std430) readonly buffer EnvironmentBuffer { Environment environment; };
 
+layout(set = 0, binding = 19, std430) readonly buffer Velocities { vec4 velocities[]; }; // a second
+
 // The copies. There is one element to spare, for there are no empty arrays.
 Sphere kept_spheres[SPHERE_COUNT + 1u];
 Box kept_boxes[BOX_COUNT + 1u];
@@ -80,6 +88,7 @@ Plane kept_planes[PLANE_COUNT + 1u];
 uint kept_material_of_shape[SPHERE_COUNT + BOX_COUNT + TRIANGLE_COUNT + PLANE_COUNT + 1u];
 Material kept_materials[MATERIAL_COUNT];
 Light kept_lights[LIGHT_COUNT + 1u];
+vec4 kept_velocities[SPHERE_COUNT + BOX_COUNT + TRIANGLE_COUNT + 1u];
 Environment kept_environment;
 
 // To be called first thing in main().
@@ -96,6 +105,9 @@ void keep_scene() {
     }
     [[unroll]] for (uint i = 0u; i < MATERIAL_COUNT; ++i) { kept_materials[i] = materials[i]; }
     [[unroll]] for (uint i = 0u; i < LIGHT_COUNT; ++i) { kept_lights[i] = lights[i]; }
+    if (SCENE_MOVES == 1u) {
+        [[unroll]] for (uint i = 0u; i < SPHERE_COUNT + BOX_COUNT + TRIANGLE_COUNT; ++i) { kept_velocities[i] = velocities[i]; }
+    }
     kept_environment = environment;
 }
 
@@ -105,7 +117,13 @@ Triangle get_triangle(uint i) { if (SCENE_IS_KEPT == 1u) { return kept_triangles
 Plane get_plane(uint i) { if (SCENE_IS_KEPT == 1u) { return kept_planes[i]; } return planes[i]; }
 uint get_material_of_shape(uint i) { if (SCENE_IS_KEPT == 1u) { return kept_material_of_shape[i]; } return material_of_shape[i]; }
 Light get_light(uint i) { if (SCENE_IS_KEPT == 1u) { return kept_lights[i]; } return lights[i]; }
+vec4 get_velocity(uint i) { if (SCENE_IS_KEPT == 1u) { return kept_velocities[i]; } return velocities[i]; }
 Environment get_environment() { if (SCENE_IS_KEPT == 1u) { return kept_environment; } return environment; }
+
+// How far a shape of the lists has come by now.
+vec3 way_of(uint shape) {
+    return ray_time * get_velocity(shape).xyz;
+}
 
 // The index differs from invocation to invocation.
 Material get_material(uint index) {

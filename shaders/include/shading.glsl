@@ -35,6 +35,7 @@ struct SurfacePoint {
     vec3 normal;
     vec3 shading_normal;
     vec3 lifted; // the position, moved off the surface
+    vec3 on_shape; // the position where the shape was in the middle of the exposure
 };
 
 // What a light adds at a point towards -ray.direction.
@@ -65,7 +66,7 @@ vec3 reflected_light(Material material, vec3 color, Light light, bool casts_shad
 
 // Emission, ambient, and direct light with hard shadows, towards -ray.direction.
 vec3 shade(Material material, Ray ray, SurfacePoint at, inout uint rays, inout bool given_up) {
-    vec3 color = surface_color(material, at.position);
+    vec3 color = surface_color(material, at.on_shape);
     vec3 sum = material.emission + material.ka * color * get_environment().ambient;
     if (material.kd == 0.0 && material.ks == 0.0) {
         return sum;
@@ -102,6 +103,10 @@ vec3 radiance(Ray ray, uint max_bounces, inout uint rays) {
         }
         SurfacePoint at;
         at.position = ray.origin + hit.distance * ray.direction;
+        at.on_shape = at.position;
+        if (SCENE_MOVES == 1u) {
+            at.on_shape -= hit.way;
+        }
         at.normal = surface_normal(hit, at.position);
         at.shading_normal = hit.shading_normal == vec3(0.0) ? at.normal : hit.shading_normal;
         bool from_behind = dot(at.normal, ray.direction) > 0.0;

@@ -33,6 +33,10 @@ vec4 trace_batch(TracePush push, uvec2 pixel, out float moment) {
     uint rays = 0u;
     uint rejected = 0u;
     uvec4 keys = sample_keys(push.seed, pixel, BLOCK_FILM_AND_LENS);
+    uvec4 time_keys = uvec4(0u);
+    if (SCENE_MOVES == 1u) {
+        time_keys = sample_keys(push.seed, pixel, BLOCK_TIME);
+    }
     uint i = 0u;
     do {
         vec4 xi = sample_values(keys, push.first_sample + i);
@@ -40,6 +44,9 @@ vec4 trace_batch(TracePush push, uvec2 pixel, out float moment) {
         vec2 q = view_plane_point(push.camera, push.lattice.extent, pixel, offset);
         vec3 opening = aperture_point(q, xi.zw);
         Ray ray = primary_ray(push.camera, q, opening.xy);
+        if (SCENE_MOVES == 1u) {
+            ray_time = (time_value(time_keys, push.first_sample + i) - 0.5) * aperture.shutter;
+        }
         vec3 color = radiance(ray, push.max_bounces, rays);
         if (APERTURE == APERTURE_CATS_EYE) {
             color *= opening.z;

@@ -87,6 +87,17 @@ pub struct SettingsArgs {
     /// Chooses other random points [default: 0]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     seed: Option<u32>,
+    /// How long the shutter is open, in seconds, as 0.01 or 1/100: longer is brighter, and what moves is
+    /// blurred more [default: the scene's, or 1/60]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_shutter)]
+    shutter: Option<f32>,
+    /// The film's speed: higher is brighter [default: the scene's, or 100]
+    #[arg(long, value_name = "ISO", allow_negative_numbers = true)]
+    iso: Option<f32>,
+    /// Let the brightness change with the aperture, as film does; else it stays as the scene's lens makes
+    /// it
+    #[arg(long)]
+    unlock_exposure: bool,
     /// Brightness of a PNG or the window in stops: +1 doubles it, -1 halves it; an EXR stays as it is
     /// [default: 0]
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true)]
@@ -211,6 +222,9 @@ impl SettingsArgs {
         aperture.roundness = self.roundness.unwrap_or(aperture.roundness);
         aperture.anamorphic = self.anamorphic.unwrap_or(aperture.anamorphic);
         aperture.cats_eye = self.cats_eye.unwrap_or(aperture.cats_eye);
+        estimator.shutter = self.shutter.unwrap_or(estimator.shutter);
+        settings.view.iso = self.iso.unwrap_or(settings.view.iso);
+        settings.view.exposure_lock = !self.unlock_exposure;
         if let Some(path) = &self.aperture_image {
             aperture.image = Some(ApertureImage::read(path)?);
         }
@@ -226,4 +240,12 @@ impl SettingsArgs {
         settings.check()?;
         Ok(settings)
     }
+}
+
+fn parse_shutter(text: &str) -> Result<f32, String> {
+    let seconds = match text.split_once('/') {
+        Some((over, under)) => over.parse().ok().zip(under.parse().ok()).map(|(a, b): (f32, f32)| a / b),
+        None => text.parse().ok(),
+    };
+    seconds.ok_or_else(|| "a shutter time is in seconds, such as 0.01 or 1/100".into())
 }

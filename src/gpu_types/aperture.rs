@@ -20,6 +20,8 @@ pub struct Aperture {
     pub cats_eye: f32,
     pub most_cats_eye: f32,
     pub cells: [u32; 2],
+    pub shutter: f32,
+    pub pad0: u32,
 }
 
 /// `ApertureBuffer` of aperture.glsl.
@@ -30,7 +32,7 @@ pub struct ApertureBuffer {
     pub edges: [[f32; 2]; 16],
 }
 
-/// The specialization constant 13: `APERTURE` of aperture.glsl.
+/// The specialization constant 14: `APERTURE` of aperture.glsl.
 pub fn aperture_constant(estimator: &Estimator) -> u32 {
     let aperture = &estimator.aperture;
     match estimator.model {
@@ -61,6 +63,7 @@ impl ApertureBuffer {
             cats_eye: (2.0 * f64::from(aperture.cats_eye) / corner) as f32,
             most_cats_eye: 2.0 * aperture.cats_eye,
             cells,
+            shutter: estimator.shutter,
             ..Zeroable::zeroed()
         };
         let mut edges = [[0.0; 2]; 16];

@@ -1,7 +1,7 @@
 //! A scene as the shaders want it.
 
 use super::{Box, Environment, Light, Material, Plane, Sphere, TreeNode, TreeShape, Triangle};
-use crate::scene::{self, Bounded, Bvh, LightKind, Node, Record, Scene};
+use crate::scene::{self, Bounded, Bvh, LightKind, Node, Record, Scene, Shaded};
 use bytemuck::Zeroable;
 use glam::Vec3;
 
@@ -24,6 +24,10 @@ pub struct SceneData {
     pub lights: Vec<Light>,
     pub shadow_lights: usize,
     pub environment: Environment,
+    /// Of the shapes in the lists but planes, in their order: scene units a second.
+    pub velocities: Vec<[f32; 4]>,
+    /// Whether any shape moves.
+    pub moves: bool,
     /// The bounded shapes, where they are in a tree instead of the lists above.
     pub tree: Option<Tree>,
 }
@@ -35,6 +39,8 @@ pub struct Tree {
     pub records: Vec<[u32; 12]>,
     /// Of the three corners of each shape, if any has some.
     pub normals: Vec<[[f32; 4]; 3]>,
+    /// Of each shape, if any moves.
+    pub velocities: Vec<[f32; 4]>,
     pub depth: u32,
     /// A bit for each kind of shape in it.
     pub kinds: u32,
@@ -42,16 +48,16 @@ pub struct Tree {
 
 impl SceneData {
     /// Every shape, material and light of a scene. Many bounded shapes, and those with normals at their
-    /// corners, go into a tree.
-    pub fn new(scene: &Scene) -> Self {
+    /// corners, go into a tree, with all that they pass while the shutter is open for so many seconds.
+    pub fn new(scene: &Scene, shutter: f32) -> Self {
         let smooth = scene.triangles.iter().any(|of| of.shape.normals.is_some());
         let bounded = scene.spheres.len() + scene.boxes.len() + scene.triangles.len();
-        Self::with_tree(scene, smooth || bounded > MOST_LISTED_SHAPES)
+        Self::with_tree(scene, shutter, smooth || bounded > MOST_LISTED_SHAPES)
     }
 
     /// Likewise, with the bounded shapes in a tree or in lists.
-    pub fn with_tree(scene: &Scene, tree: bool) -> Self {
-        let tree = tree.then(|| Bvh::new(scene)).flatten().map(|bvh| Tree::new(&bvh));
+    pub fn with_tree(scene: &Scene, shutter: f32, tree: bool) -> Self {
+        let tree = tree.then(|| Bvh::new(scene, shutter)).flatten().map(|bvh| Tree::new(&bvh));
         let listed = |shapes: usize| if tree.is_some() { 0 } else { shapes };
         let (spheres, boxes, triangles) = (
             &scene.spheres[..listed(scene.spheres.len())],
@@ -63,7 +69,12 @@ impl SceneData {
             .chain(boxes.iter().map(|shaded| shaded.material))
             .chain(triangles.iter().map(|shaded| shaded.material))
             .chain(scene.planes.iter().map(|shaded| shaded.material));
+        let velocities = (spheres.iter().map(|shaded| shaded.velocity))
+            .chain(boxes.iter().map(|shaded| shaded.velocity))
+            .chain(triangles.iter().map(|shaded| shaded.velocity));
         Self {
+            velocities: velocities.map(|velocity| velocity.extend(0.0).to_array()).collect(),
+            moves: scene.moves(),
             spheres: spheres.iter().map(|shaded| sphere(&shaded.shape)).collect(),
             boxes: boxes.iter().map(|shaded| aabb(&shaded.shape)).collect(),
             triangles: triangles.iter().map(|shaded| triangle(&shaded.shape)).collect(),
@@ -92,15 +103,19 @@ impl Tree {
             records: bvh.records.iter().map(|record| tree_record(bvh, record)).collect(),
             normals: Vec::new(),
             depth: bvh.depth,
-            kinds: bvh.shapes.iter().fold(0, |kinds, (shape, _)| kinds | 1 << kind(shape)),
+            velocities: Vec::new(),
+            kinds: bvh.shapes.iter().fold(0, |kinds, of| kinds | 1 << kind(&of.shape)),
         };
+        if bvh.shapes.iter().any(|of| of.velocity != Vec3::ZERO) {
+            tree.velocities = bvh.shapes.iter().map(|of| of.velocity.extend(0.0).to_array()).collect();
+        }
         let normals = |shape: &Bounded| match shape {
             Bounded::Triangle(triangle) => triangle.normals,
             Bounded::Sphere(_) | Bounded::Box(_) => None,
         };
-        if bvh.shapes.iter().any(|(shape, _)| normals(shape).is_some()) {
+        if bvh.shapes.iter().any(|of| normals(&of.shape).is_some()) {
             // Zero at each corner stands for the triangle's own.
-            let corners = bvh.shapes.iter().map(|(shape, _)| normals(shape).unwrap_or_default());
+            let corners = bvh.shapes.iter().map(|of| normals(&of.shape).unwrap_or_default());
             tree.normals =
                 corners.map(|corners| corners.map(|normal| normal.extend(0.0).to_array())).collect();
             tree.kinds |= 1 << SMOOTH;
@@ -140,7 +155,7 @@ fn tree_node(node: &Node) -> TreeNode {
     }
 }
 
-fn tree_shape(index: u32, (shape, material): &(Bounded, u32)) -> TreeShape {
+fn tree_shape(index: u32, Shaded { shape, material, .. }: &Shaded<Bounded>) -> TreeShape {
     let (position, a, b) = match shape {
         Bounded::Sphere(sphere) => (sphere.center, Vec3::splat(sphere.radius), Vec3::ZERO),
         Bounded::Box(aabb) => (aabb.lower, aabb.upper, Vec3::ZERO),

@@ -35,8 +35,12 @@ const SAMPLER_LOOP_STEPS: u64 = 24 + 16;
 /// A scene on the device.
 pub struct SceneBuffers {
     buffers: [Arc<Buffer>; 8],
-    /// The tree, and the normals of its shapes.
-    tree: [Arc<TexelBuffer>; 2],
+    /// The tree, and the normals and velocities of its shapes.
+    tree: [Arc<TexelBuffer>; 3],
+    /// Of the shapes that are not in it.
+    velocities: Arc<Buffer>,
+    /// Whether any shape moves.
+    moves: bool,
     /// The tree's depth, the kinds in it, and the most steps that a ray can take in it.
     tree_constants: [u32; 3],
     /// Spheres, boxes, triangles, planes, lights, lights that cast shadows, materials.
@@ -57,9 +61,9 @@ impl SceneBuffers {
     /// [`Error::Memory`], also where it has more shapes than a tree can hold, or what Vulkan says.
     pub fn new(device: &Arc<Device>, scene: &SceneData) -> Result<Self> {
         let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
-        let (records, normals, depth, kinds) = match &scene.tree {
-            Some(tree) => (&*tree.records, &*tree.normals, tree.depth, tree.kinds),
-            None => (&[][..], &[][..], 0, 0),
+        let (records, normals, velocities, depth, kinds) = match &scene.tree {
+            Some(tree) => (&*tree.records, &*tree.normals, &*tree.velocities, tree.depth, tree.kinds),
+            None => (&[][..], &[][..], &[][..], 0, 0),
         };
         if records.len() > MOST_TREE_RECORDS {
             return Err(Error::Memory { what: "the tree of shapes" });
@@ -82,7 +86,10 @@ impl SceneBuffers {
             tree: [
                 Arc::new(TexelBuffer::upload(device, "tree", records)?),
                 Arc::new(TexelBuffer::upload(device, "normals", normals)?),
+                Arc::new(TexelBuffer::upload(device, "velocities in the tree", velocities)?),
             ],
+            velocities: Arc::new(Buffer::upload(device, "velocities", &scene.velocities)?),
+            moves: scene.moves,
             tree_constants: [depth, kinds, steps],
             counts: [
                 count(scene.spheres.len()),
@@ -122,7 +129,8 @@ impl SceneBuffers {
     pub fn bindings(&self, front: &[Binding]) -> Vec<(u32, Binding)> {
         let scene = self.buffers.iter().map(|buffer| Binding::Buffer(Arc::clone(buffer)));
         let tree = self.tree.iter().map(|buffer| Binding::Texels(Arc::clone(buffer)));
-        (0..).zip(front.iter().cloned()).chain((2..).zip(scene.chain(tree))).collect()
+        let velocities = (19, Binding::Buffer(Arc::clone(&self.velocities)));
+        (0..).zip(front.iter().cloned()).chain((2..).zip(scene.chain(tree))).chain([velocities]).collect()
     }
 
     /// The specialization constants: the two of the estimator, and those of
@@ -132,6 +140,7 @@ impl SceneBuffers {
             .chain(self.counts)
             .chain([self.kept.into()])
             .chain(self.tree_constants)
+            .chain([self.moves.into()])
             .collect()
     }
 }

@@ -71,7 +71,7 @@ impl Projection {
     /// The ray from the lens point `disk` (of the unit disk) through the point where the centre ray
     /// of the film position meets the focal plane. Without a lens: from the film position through that
     /// point of the hole, where it starts.
-    pub(super) fn primary_ray(&self, pixel: [u32; 2], offset: [f64; 2], disk: [f64; 2]) -> Ray {
+    pub(super) fn primary_ray(&self, pixel: [u32; 2], offset: [f64; 2], disk: [f64; 2], time: f64) -> Ray {
         let [width, height] = self.size;
         let x = f64::from(pixel[0]) + 0.5 + offset[0];
         let y = f64::from(pixel[1]) + 0.5 + offset[1];
@@ -83,14 +83,14 @@ impl Projection {
             Opening::Lens { radius, focal_distance } => {
                 let focus = self.eye + focal_distance * (across - self.w);
                 let origin = self.eye + radius * on_disk;
-                Ray { origin, direction: (focus - origin).normalize() }
+                Ray { origin, direction: (focus - origin).normalize(), time }
             }
             Opening::Hole { radius, film_distance, upright } => {
                 // Seen from behind, the film is a window: what is at its right was at the left.
                 let across = if upright { -across } else { across };
                 let film_point = self.eye + film_distance * (across + self.w);
                 let origin = self.eye + radius * on_disk;
-                Ray { origin, direction: (origin - film_point).normalize() }
+                Ray { origin, direction: (origin - film_point).normalize(), time }
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Rays against shapes, by the textbook.
 
 use super::Ray;
-use crate::scene::{Aabb, Plane, Scene, Sphere, Triangle};
+use crate::scene::{Aabb, Plane, Scene, Shaded, Sphere, Triangle};
 use glam::{DMat3, DVec3};
 
 /// A point where a ray meets a surface.
@@ -16,28 +16,38 @@ pub struct Hit {
     pub shading_normal: DVec3,
     /// Index into [`Scene::materials`].
     pub material: u32,
+    /// Of what was hit, in scene units a second.
+    pub velocity: DVec3,
 }
 
 /// The nearest hit farther than `least`.
 pub fn intersect(scene: &Scene, ray: Ray, least: f64) -> Option<Hit> {
-    let spheres = scene.spheres.iter().map(|of| (sphere(&of.shape, ray, least), of.material));
-    let boxes = scene.boxes.iter().map(|of| (aabb(&of.shape, ray, least), of.material));
-    let triangles = scene.triangles.iter().map(|of| (triangle(&of.shape, ray, least), of.material));
-    let planes = scene.planes.iter().map(|of| (plane(&of.shape, ray, least), of.material));
-    let flat = |(crossing, material): (Option<Crossing>, u32)| {
-        let (distance, normal) = crossing?;
-        Some((distance, normal, normal, material))
-    };
-    let smooth = triangles.filter_map(|(crossing, material)| {
-        let (distance, normal, shading_normal) = crossing?;
-        Some((distance, normal, shading_normal, material))
-    });
-    let crossings = spheres.chain(boxes).chain(planes).filter_map(flat).chain(smooth);
-    let hits = crossings.map(|(distance, outward, shading, material)| {
-        let side = if outward.dot(ray.direction) > 0.0 { -1.0 } else { 1.0 };
-        Hit { distance, normal: side * outward, shading_normal: side * shading, material }
-    });
+    let spheres = crossings(&scene.spheres, ray, |shape, ray| flat(sphere(shape, ray, least)));
+    let boxes = crossings(&scene.boxes, ray, |shape, ray| flat(aabb(shape, ray, least)));
+    let triangles = crossings(&scene.triangles, ray, |shape, ray| triangle(shape, ray, least));
+    let planes = crossings(&scene.planes, ray, |shape, ray| flat(plane(shape, ray, least)));
+    let hits = spheres.chain(boxes).chain(planes).chain(triangles);
     hits.min_by(|a, b| a.distance.total_cmp(&b.distance))
+}
+
+/// Where the ray meets each shape. To a moving shape it is the ray that moves, the other way.
+fn crossings<T>(
+    shapes: &[Shaded<T>],
+    ray: Ray,
+    cross: impl Fn(&T, Ray) -> Option<(f64, DVec3, DVec3)>,
+) -> impl Iterator<Item = Hit> {
+    shapes.iter().filter_map(move |of| {
+        let velocity = of.velocity.as_dvec3();
+        let seen = Ray { origin: ray.origin - ray.time * velocity, ..ray };
+        let (distance, outward, shading) = cross(&of.shape, seen)?;
+        let side = if outward.dot(ray.direction) > 0.0 { -1.0 } else { 1.0 };
+        let (normal, shading_normal) = (side * outward, side * shading);
+        Some(Hit { distance, normal, shading_normal, material: of.material, velocity })
+    })
+}
+
+fn flat(crossing: Option<Crossing>) -> Option<(f64, DVec3, DVec3)> {
+    crossing.map(|(distance, normal)| (distance, normal, normal))
 }
 
 /// Distance and normal.

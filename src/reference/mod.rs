@@ -26,6 +26,8 @@ pub struct Ray {
     pub origin: DVec3,
     /// Unit length.
     pub direction: DVec3,
+    /// When light goes along it, in seconds from the middle of the exposure.
+    pub time: f64,
 }
 
 /// One sample of a picture.
@@ -70,14 +72,20 @@ impl<'a> Reference<'a> {
                 aperture::point(&aperture, [0.0; 2], lens)
             }
         };
-        let sample = self.trace(pixel, offset, point);
+        let time = if estimator.scene.moves() {
+            let open = sampler::time_value(estimator.sampler, estimator.seed, pixel, index);
+            (open - 0.5) * f64::from(estimator.shutter)
+        } else {
+            0.0
+        };
+        let sample = self.trace(pixel, offset, point, time);
         Sample { radiance: share * sample.radiance, ..sample }
     }
 
     /// The sample of a film position, `offset` pixels from this pixel's centre, and a point of the
-    /// lens, whose radius is one.
-    pub fn trace(&self, pixel: [u32; 2], offset: [f64; 2], disk: [f64; 2]) -> Sample {
-        let ray = self.projection.primary_ray(pixel, offset, disk);
+    /// lens, whose radius is one, so many seconds from the middle of the exposure.
+    pub fn trace(&self, pixel: [u32; 2], offset: [f64; 2], disk: [f64; 2], time: f64) -> Sample {
+        let ray = self.projection.primary_ray(pixel, offset, disk, time);
         let scene = &*self.estimator.scene;
         let radiance = shading::radiance(scene, ray, self.estimator.max_bounces);
         Sample { ray, offset, radiance }

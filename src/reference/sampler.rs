@@ -31,16 +31,18 @@ pub fn sample_values(sampler: Sampler, seed: u32, pixel: [u32; 2], index: u32, b
     let bits = match sampler {
         Sampler::Random => pcg4d([x, y, index, seed.wrapping_add(block.wrapping_mul(0x9e37_79b9))]),
         Sampler::Sobol => scrambled(index, folded([x, y, block, seed])),
-        Sampler::BlueNoise => {
-            let shift = folded([0, 0, block, seed]);
-            // A value leaves the last byte of its bits unused.
-            let (column, row) = (x.wrapping_add(shift[0]) % TILE, y.wrapping_add(shift[1]) % TILE);
-            let place = 2 * (row * TILE + column) as usize;
-            let number = u16::from_le_bytes([NUMBERS[place], NUMBERS[place + 1]]);
-            blue_noise_bits(number, seed, index, block)
-        }
+        Sampler::BlueNoise => blue_noise_bits(blue_noise_number(seed, [x, y], block), seed, index, block),
     };
     bits.map(unit)
+}
+
+/// The number of a pixel in the tile, which a seed shifts.
+fn blue_noise_number(seed: u32, [x, y]: [u32; 2], block: u32) -> u16 {
+    let shift = folded([0, 0, block, seed]);
+    // A value leaves the last byte of its bits unused.
+    let (column, row) = (x.wrapping_add(shift[0]) % TILE, y.wrapping_add(shift[1]) % TILE);
+    let place = 2 * (row * TILE + column) as usize;
+    u16::from_le_bytes([NUMBERS[place], NUMBERS[place + 1]])
 }
 
 /// The blue-noise sampler's bits for a pixel that has this number: of a Sobol sequence with one scramble
@@ -49,6 +51,25 @@ pub fn blue_noise_bits(number: u16, seed: u32, index: u32, block: u32) -> [u32; 
     let (shift, mask) = (folded([0, 0, block, seed]), folded([number.into(), 0, 0, 0]));
     let point = scrambled(index, BLUE_NOISE_SCRAMBLE);
     [0, 1, 2, 3].map(|axis| point[axis] ^ shift[axis] ^ mask[axis])
+}
+
+/// A value in [0, 1) for the time of a sample: the Sobol sequence's first dimension, its points in an order of
+/// their own (B. Burley, JCGT 9(4), 2020, section 4).
+pub fn time_value(sampler: Sampler, seed: u32, pixel: [u32; 2], index: u32) -> f64 {
+    const BLOCK: u32 = 1;
+    let ordered = |order: u32, key: u32| owen_scramble(owen_scramble(index, order).reverse_bits(), key);
+    match sampler {
+        Sampler::Random => sample_values(sampler, seed, pixel, index, BLOCK)[0],
+        Sampler::Sobol => {
+            let [order, key, ..] = folded([pixel[0], pixel[1], BLOCK, seed]);
+            unit(ordered(order, key))
+        }
+        Sampler::BlueNoise => {
+            let number = blue_noise_number(seed, pixel, BLOCK);
+            let mask = folded([0, 0, BLOCK, seed])[0] ^ folded([number.into(), 0, 0, 0])[0];
+            unit(ordered(0x6c8e_9cf5, 0x3f84_d5b5) ^ mask)
+        }
+    }
 }
 
 /// The value in [0, 1) of these bits: the first 24 count.

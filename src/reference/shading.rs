@@ -22,10 +22,10 @@ fn radiance_beyond(scene: &Scene, ray: Ray, least: f64, bounces: u32) -> DVec3 {
     let material = &scene.materials[hit.material as usize];
     let position = ray.origin + hit.distance * ray.direction;
     let least = LEAST_DISTANCE * position.abs().max_element().max(hit.distance);
-    let mut sum = emitted_and_reflected(scene, material, position, &hit, -ray.direction, least);
+    let mut sum = emitted_and_reflected(scene, material, position, &hit, &ray, least);
     if bounces > 0 && material.reflectance != glam::Vec3::ZERO {
         let direction = mirrored(&hit, ray.direction);
-        let mirrored = Ray { origin: position, direction };
+        let mirrored = Ray { origin: position, direction, time: ray.time };
         sum += material.reflectance.as_dvec3() * radiance_beyond(scene, mirrored, least, bounces - 1);
     }
     sum
@@ -48,10 +48,12 @@ fn emitted_and_reflected(
     material: &Material,
     position: DVec3,
     hit: &Hit,
-    to_viewer: DVec3,
+    ray: &Ray,
     least: f64,
 ) -> DVec3 {
-    let color = color(material, position);
+    let (to_viewer, time) = (-ray.direction, ray.time);
+    // A shape takes its colours along.
+    let color = color(material, position - time * hit.velocity);
     let mut sum = material.emission.as_dvec3() + f64::from(material.ka) * color * scene.ambient.as_dvec3();
     for light in &scene.lights {
         let (to_light, light_distance) = match light.kind {
@@ -63,7 +65,7 @@ fn emitted_and_reflected(
         };
         let cosine = hit.shading_normal.dot(to_light);
         let behind = hit.normal.dot(to_light) <= 0.0;
-        let shadow_ray = Ray { origin: position, direction: to_light };
+        let shadow_ray = Ray { origin: position, direction: to_light, time };
         let in_shadow = || {
             let blocker = intersect(scene, shadow_ray, least);
             light.shadows && blocker.is_some_and(|hit| hit.distance < light_distance)

@@ -91,6 +91,9 @@ struct LoadedScene {
     trace: Trace,
     /// For which it is compiled: see [`aperture_constant`].
     aperture: u32,
+    /// Whether anything moves, and for how long the shutter is open.
+    moves: bool,
+    shutter: f32,
     /// Once something was asked of it.
     pick: Option<Pick>,
 }
@@ -166,8 +169,12 @@ impl Renderer {
             (self.scene, self.film, self.trace_bindings) = (None, None, None);
             self.passes = Some(self.compile_passes(constants, estimator.is_adaptive())?);
         }
-        if self.scene.as_ref().is_none_or(|loaded| loaded.scene != estimator.scene) {
-            self.load_scene(&estimator.scene, constants, aperture_constant(estimator))?;
+        // The tree holds all that its shapes pass while the shutter is open.
+        let fits = |loaded: &LoadedScene| {
+            loaded.scene == estimator.scene && (!loaded.moves || loaded.shutter == estimator.shutter)
+        };
+        if !self.scene.as_ref().is_some_and(fits) {
+            self.load_scene(estimator, constants)?;
         }
         self.fit_opening(estimator, constants)?;
         self.largest_batch = self.fit_loops(estimator.max_bounces)?;
@@ -242,13 +249,17 @@ impl Renderer {
         Ok(())
     }
 
-    fn load_scene(&mut self, scene: &SceneRef, constants: [u32; 2], aperture: u32) -> Result<()> {
+    fn load_scene(&mut self, estimator: &Estimator, constants: [u32; 2]) -> Result<()> {
         self.device.wait_idle()?;
         (self.scene, self.trace_bindings) = (None, None);
-        let buffers = SceneBuffers::new(&self.device, &SceneData::new(scene))?;
+        let (scene, shutter, aperture) =
+            (estimator.scene.clone(), estimator.shutter, aperture_constant(estimator));
+        let data = SceneData::new(&scene, shutter);
+        let buffers = SceneBuffers::new(&self.device, &data)?;
         let trace = Trace::new(&self.device, self.shaders.trace, constants, aperture, &buffers, &self.tile)?;
         self.tally.forget_scene();
-        self.scene = Some(LoadedScene { scene: scene.clone(), buffers, trace, aperture, pick: None });
+        let moves = data.moves;
+        self.scene = Some(LoadedScene { scene, buffers, trace, aperture, moves, shutter, pick: None });
         Ok(())
     }
 
@@ -278,7 +289,7 @@ impl Renderer {
             None => 0.0,
             Some(Overlay::Count) => (settings.samples as f32).recip(),
         };
-        let exposure = settings.view.exposure_stops.exp2();
+        let exposure = settings.exposure();
         let blue_first = self.blue_first.into();
         let push = ResolvePush { extent, preview_stride, exposure, count_scale, blue_first };
         // A cell of the preview at the picture's edge may have no texel of its own.

@@ -12,7 +12,7 @@ pub struct Builtin {
 }
 
 /// All of them; the first is the default.
-pub const BUILTINS: [Builtin; 3] = [
+pub const BUILTINS: [Builtin; 4] = [
     Builtin {
         name: "version-4",
         about: "ten objects on a checkered ground, from near to far along a diagonal",
@@ -27,5 +27,10 @@ pub const BUILTINS: [Builtin; 3] = [
         name: "suffern-mirror",
         about: "a mirror box, whose images have their own depth (Suffern, figure 10.12)",
         toml: include_str!("builtin/suffern-mirror.toml"),
+    },
+    Builtin {
+        name: "passing",
+        about: "balls and boxes that pass while the shutter is open: try --shutter 1/500 --iso 1600",
+        toml: include_str!("builtin/passing.toml"),
     },
 ];

@@ -2,7 +2,7 @@
 //! node, compressed after H. Ylitie et al., "Efficient Incoherent Ray Traversal on GPUs Through Compressed
 //! Wide BVHs", HPG 2017.
 
-use super::{Aabb, Scene, Sphere, Triangle};
+use super::{Aabb, Scene, Shaded, Sphere, Triangle};
 use glam::{DVec3, Vec3, Vec3A};
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb as Bounds;
@@ -32,8 +32,8 @@ pub enum Bounded {
 pub struct Bvh {
     /// Nodes and leaves. The first is the root; the children of a node follow one another, behind it.
     pub records: Vec<Record>,
-    /// The shapes, each with the index of its material.
-    pub shapes: Vec<(Bounded, u32)>,
+    /// The shapes, where they are in the middle of the exposure.
+    pub shapes: Vec<Shaded<Bounded>>,
     /// Nodes on the longest way from the root to a leaf.
     pub depth: u32,
 }
@@ -61,16 +61,18 @@ pub struct Node {
 }
 
 impl Bvh {
-    /// Around all spheres, boxes and triangles of a scene. None where it has none.
-    pub fn new(scene: &Scene) -> Option<Self> {
-        let spheres = scene.spheres.iter().map(|of| (Bounded::Sphere(of.shape), of.material));
-        let boxes = scene.boxes.iter().map(|of| (Bounded::Box(of.shape), of.material));
-        let triangles = scene.triangles.iter().map(|of| (Bounded::Triangle(of.shape), of.material));
+    /// Around all spheres, boxes and triangles of a scene, and all places where they come by while the shutter
+    /// is open for so many seconds. None where it has none.
+    pub fn new(scene: &Scene, shutter: f32) -> Option<Self> {
+        let spheres = scene.spheres.iter().map(|of| of.map(Bounded::Sphere));
+        let boxes = scene.boxes.iter().map(|of| of.map(Bounded::Box));
+        let triangles = scene.triangles.iter().map(|of| of.map(Bounded::Triangle));
         let shapes: Vec<_> = spheres.chain(boxes).chain(triangles).collect();
         if shapes.is_empty() {
             return None;
         }
-        let bounds: Vec<Bounds> = shapes.iter().map(|(shape, _)| shape.bounds()).collect();
+        let bounds: Vec<Bounds> =
+            shapes.iter().map(|of| of.shape.bounds(0.5 * shutter * of.velocity.abs())).collect();
         let params = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::slow_build() };
         let binary = build_bvh2(&bounds, params, &mut Duration::default());
         let (records, depth) = widen(&binary);
@@ -79,8 +81,8 @@ impl Bvh {
 }
 
 impl Bounded {
-    /// A little larger than the shape, by what f32 may lose of a point on it.
-    fn bounds(&self) -> Bounds {
+    /// The box around it, wider by so much on either side, and by what f32 may lose of a point on it.
+    fn bounds(&self, wider: Vec3) -> Bounds {
         let (lower, upper) = match self {
             Self::Sphere(sphere) => (sphere.center - sphere.radius, sphere.center + sphere.radius),
             Self::Box(aabb) => (aabb.lower, aabb.upper),
@@ -89,6 +91,7 @@ impl Bounded {
                 (a.min(b).min(c), a.max(b).max(c))
             }
         };
+        let (lower, upper) = (lower - wider, upper + wider);
         let margin = Vec3::splat(1e-6 * lower.abs().max(upper.abs()).max_element());
         Bounds::new(Vec3A::from(lower - margin), Vec3A::from(upper + margin))
     }

@@ -6,8 +6,8 @@ use super::material_format::{LightColor, MaterialList, MatteTable, MirrorTable, 
 use super::mesh::{Mesh, Placement};
 use super::number::{Count, Extent, NonNegative, Positive, Rgb, Vector};
 use super::{
-    Aabb, Aperture, ApertureImage, Background, Camera, CameraModel, Hole, Lens, Light, LightKind, Plane,
-    Scene, Shaded, Sphere, Triangle, VFOV_DEGREES,
+    Aabb, Aperture, ApertureImage, Background, Camera, CameraModel, DEFAULT_ISO, DEFAULT_SHUTTER, Hole, Lens,
+    Light, LightKind, Plane, Scene, Shaded, Sphere, Triangle, VFOV_DEGREES,
 };
 use glam::Vec3;
 use serde::Deserialize;
@@ -76,6 +76,8 @@ struct CameraTable {
     anamorphic: Option<f32>,
     cats_eye: Option<f32>,
     aperture_image: Option<Spanned<String>>,
+    shutter: Option<Positive>,
+    iso: Option<Positive>,
 }
 
 #[derive(Deserialize, Default, Clone, Copy)]
@@ -123,6 +125,8 @@ struct SphereTable {
     center: Vector,
     radius: Positive,
     material: Spanned<String>,
+    #[serde(default = "zero")]
+    velocity: Vector,
 }
 
 #[derive(Deserialize)]
@@ -131,6 +135,8 @@ struct BoxTable {
     lower: Vector,
     upper: Spanned<Vector>,
     material: Spanned<String>,
+    #[serde(default = "zero")]
+    velocity: Vector,
 }
 
 #[derive(Deserialize)]
@@ -138,6 +144,8 @@ struct BoxTable {
 struct TriangleTable {
     vertices: Spanned<[Vector; 3]>,
     material: Spanned<String>,
+    #[serde(default = "zero")]
+    velocity: Vector,
 }
 
 #[derive(Deserialize)]
@@ -159,6 +167,8 @@ struct MeshTable {
     rotate_degrees: Vector,
     #[serde(default = "zero")]
     position: Vector,
+    #[serde(default = "zero")]
+    velocity: Vector,
 }
 
 fn default_size() -> [Extent; 2] {
@@ -189,7 +199,7 @@ impl SceneFile {
     /// Files that the scene names lie in `folder`, unless their paths say otherwise.
     pub(super) fn into_scene(self, name: &str, folder: &Path) -> Result<Scene, Fault> {
         let size = [self.size[0].0, self.size[1].0];
-        let View { camera, model, lens, hole, aperture } = camera(&self.camera, size, folder)?;
+        let View { camera, model, lens, hole, aperture, shutter, iso } = camera(&self.camera, size, folder)?;
         let background = background(self.background.as_ref())?;
         let ambient = self.ambient.as_ref().map_or(Vec3::ZERO, LightColor::radiance);
         let lights = self.lights()?;
@@ -206,6 +216,8 @@ impl SceneFile {
             lens,
             hole,
             aperture,
+            shutter,
+            iso,
             size,
             max_bounces: self.max_bounces.0,
             background,
@@ -221,7 +233,7 @@ impl SceneFile {
         for table in &self.sphere {
             let shape = Sphere { center: table.center.0, radius: table.radius.f32() };
             let material = list.find(&table.material)?;
-            scene.spheres.push(Shaded { shape, material });
+            scene.spheres.push(Shaded { shape, material, velocity: table.velocity.0 });
         }
         for table in &self.boxes {
             let shape = Aabb { lower: table.lower.0, upper: table.upper.get_ref().0 };
@@ -229,7 +241,7 @@ impl SceneFile {
                 return Err(fault(&table.upper, "upper must be greater than lower on every axis"));
             }
             let material = list.find(&table.material)?;
-            scene.boxes.push(Shaded { shape, material });
+            scene.boxes.push(Shaded { shape, material, velocity: table.velocity.0 });
         }
         for table in &self.triangle {
             let vertices = [0, 1, 2].map(|corner| table.vertices.get_ref()[corner].0);
@@ -238,12 +250,13 @@ impl SceneFile {
                 return Err(fault(&table.vertices, "the three vertices lie on one line"));
             }
             let material = list.find(&table.material)?;
-            scene.triangles.push(Shaded { shape: Triangle { vertices, normals: None }, material });
+            let shape = Triangle { vertices, normals: None };
+            scene.triangles.push(Shaded { shape, material, velocity: table.velocity.0 });
         }
         for table in &self.plane {
             let shape = Plane { point: table.point.0, normal: nonzero(&table.normal)? };
             let material = list.find(&table.material)?;
-            scene.planes.push(Shaded { shape, material });
+            scene.planes.push(Shaded::still(shape, material));
         }
         let of_mesh = |table: &MeshTable| table.material.as_ref().map(|name| list.find(name)).transpose();
         let of_meshes: Vec<Option<u32>> = self.mesh.iter().map(of_mesh).collect::<Result<_, _>>()?;
@@ -280,7 +293,8 @@ impl MeshTable {
     fn add_to(&self, scene: &mut Scene, folder: &Path, material: Option<u32>) -> crate::error::Result<()> {
         let mesh = Mesh::read(&folder.join(self.file.get_ref()))?;
         let (angles, position) = (self.rotate_degrees.0.as_dvec3(), self.position.0.as_dvec3());
-        mesh.add_to(scene, &Placement::new(self.scale.f64(), angles, position), material)
+        let placement = Placement::new(self.scale.f64(), angles, position);
+        mesh.add_to(scene, &placement, material, self.velocity.0)
     }
 }
 
@@ -324,6 +338,8 @@ fn camera(table: &Spanned<CameraTable>, size: [u32; 2], folder: &Path) -> Result
         lens: Lens { diameter, focal_distance: table.focal_distance.f32() },
         hole: Hole { diameter: hole, upright: table.upright },
         aperture: aperture(span, folder)?,
+        shutter: table.shutter.as_ref().map_or(DEFAULT_SHUTTER, Positive::f32),
+        iso: table.iso.as_ref().map_or(DEFAULT_ISO, Positive::f32),
     })
 }
 
@@ -357,6 +373,8 @@ struct View {
     lens: Lens,
     hole: Hole,
     aperture: Aperture,
+    shutter: f32,
+    iso: f32,
 }
 
 fn background(table: Option<&Spanned<BackgroundTable>>) -> Result<Background, Fault> {

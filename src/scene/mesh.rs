@@ -101,6 +101,7 @@ impl Mesh {
         scene: &mut Scene,
         placement: &Placement,
         material: Option<u32>,
+        velocity: Vec3,
     ) -> Result<()> {
         let fail = |message: String| Err(self.fault(message));
         let positions: Vec<Vec3> =
@@ -136,6 +137,7 @@ impl Mesh {
         let triangles = faces.iter().zip(own_normals).map(|(face, normals)| Shaded {
             shape: Triangle { vertices: vertices(face), normals },
             material: material_of(face.material),
+            velocity,
         });
         scene.triangles.extend(triangles);
         Ok(())

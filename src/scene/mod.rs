@@ -58,6 +58,10 @@ pub struct Scene {
     pub aperture: Aperture,
     /// The picture's size in pixels, unless another is asked for.
     pub size: [u32; 2],
+    /// How long the shutter is open, in seconds.
+    pub shutter: f32,
+    /// The film's speed that the brightness is given for.
+    pub iso: f32,
     /// How many reflections are followed, unless another number is asked for.
     pub max_bounces: u32,
     /// What is seen where nothing is hit.
@@ -80,7 +84,20 @@ pub struct Scene {
     pub planes: Vec<Shaded<Plane>>,
 }
 
+/// How long the shutter is open, in seconds, unless the scene says otherwise.
+const DEFAULT_SHUTTER: f32 = 1.0 / 60.0;
+/// Likewise, the film's speed.
+const DEFAULT_ISO: f32 = 100.0;
+
 impl Scene {
+    /// Whether anything in it moves.
+    pub fn moves(&self) -> bool {
+        let moves = |velocity: Vec3| velocity != Vec3::ZERO;
+        self.spheres.iter().any(|of| moves(of.velocity))
+            || self.boxes.iter().any(|of| moves(of.velocity))
+            || self.triangles.iter().any(|of| moves(of.velocity))
+    }
+
     /// Adds a material, and gives its index.
     fn add_material(&mut self, name: &str, material: Material) -> u32 {
         self.materials.push(material);

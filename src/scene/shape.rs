@@ -9,6 +9,24 @@ pub struct Shaded<T> {
     pub shape: T,
     /// Index into [`super::Scene::materials`].
     pub material: u32,
+    /// How it moves, in scene units a second. It is where the scene file says in the middle of the exposure,
+    /// and takes its checker along. Planes stand still.
+    pub velocity: Vec3,
+}
+
+impl<T> Shaded<T> {
+    /// A shape that stands still.
+    pub fn still(shape: T, material: u32) -> Self {
+        Self { shape, material, velocity: Vec3::ZERO }
+    }
+
+    /// Another shape of the same material and motion.
+    pub(super) fn map<U>(&self, other: impl Fn(T) -> U) -> Shaded<U>
+    where
+        T: Copy,
+    {
+        Shaded { shape: other(self.shape), material: self.material, velocity: self.velocity }
+    }
 }
 
 /// A sphere.

@@ -2,8 +2,8 @@
 
 use super::mesh::{Mesh, Placement};
 use super::{
-    Aperture, Background, Camera, CameraModel, Checker, Hole, Lens, Light, LightKind, Material, Plane, Scene,
-    Shaded,
+    Aperture, Background, Camera, CameraModel, Checker, DEFAULT_ISO, DEFAULT_SHUTTER, Hole, Lens, Light,
+    LightKind, Material, Plane, Scene, Shaded,
 };
 use crate::error::Result;
 use glam::{DVec3, Vec3};
@@ -60,6 +60,8 @@ pub(super) fn around(mesh: &Mesh, name: &str) -> Result<Scene> {
         hole: Hole { diameter: 0.0, upright: false },
         aperture: Aperture::default(),
         size: SIZE,
+        shutter: DEFAULT_SHUTTER,
+        iso: DEFAULT_ISO,
         max_bounces: 5,
         background: Background { horizon: Vec3::new(0.92, 0.9, 0.87), zenith: Vec3::new(0.24, 0.44, 0.78) },
         ambient: Vec3::new(0.24, 0.27, 0.32),
@@ -69,12 +71,9 @@ pub(super) fn around(mesh: &Mesh, name: &str) -> Result<Scene> {
         spheres: Vec::new(),
         boxes: Vec::new(),
         triangles: Vec::new(),
-        planes: vec![Shaded {
-            shape: Plane { point: Vec3::Y * ground as f32, normal: Vec3::Y },
-            material: 0,
-        }],
+        planes: vec![Shaded::still(Plane { point: Vec3::Y * ground as f32, normal: Vec3::Y }, 0)],
     };
-    mesh.add_to(&mut scene, &placement, None)?;
+    mesh.add_to(&mut scene, &placement, None, Vec3::ZERO)?;
     scene.lens = lens_for(&scene);
     // A file does not say how large its units are: as large as makes of this lens an ordinary one.
     let frame_metres = scene.camera.focal_length_mm() / 1000.0;

@@ -16,6 +16,10 @@ pub const MAX_SAMPLES: u32 = 1 << 24;
 pub const MAX_JITTER: f32 = 15.0;
 /// The smallest and largest f-number.
 pub const F_NUMBERS: RangeInclusive<f64> = 0.01..=1e6;
+/// The shortest and longest time that the shutter can be open, in seconds.
+pub const SHUTTERS: [f32; 2] = [1e-6, 1e4];
+/// The slowest and fastest film.
+pub const ISOS: [f32; 2] = [0.1, 1e7];
 /// The strongest exposure either way, in stops.
 pub const MAX_EXPOSURE_STOPS: f32 = 20.0;
 /// Samples per pixel of a headless picture, unless another number is asked for.
@@ -67,6 +71,8 @@ pub struct Estimator {
     pub hole: Hole,
     /// The shape of either.
     pub aperture: Aperture,
+    /// How long the shutter is open, in seconds: what moves meanwhile is blurred.
+    pub shutter: f32,
     /// Width and height in pixels.
     pub size: [u32; 2],
     /// Width of the square around a pixel's centre that its samples fall in, in pixels.
@@ -126,6 +132,10 @@ pub enum Sampler {
 pub struct View {
     /// Brightness, in stops: the picture is multiplied by two to this power.
     pub exposure_stops: f32,
+    /// The film's speed: twice as fast is twice as bright.
+    pub iso: f32,
+    /// Whether the brightness stays when the aperture changes.
+    pub exposure_lock: bool,
     /// What is shown instead of the picture, if anything.
     pub overlay: Option<Overlay>,
 }
@@ -140,6 +150,7 @@ pub enum Overlay {
 impl Settings {
     /// The settings that a scene was composed for.
     pub fn of_scene(scene: SceneRef) -> Self {
+        let view = View { exposure_stops: 0.0, iso: scene.iso, exposure_lock: true, overlay: None };
         Self {
             estimator: Estimator {
                 camera: scene.camera,
@@ -147,6 +158,7 @@ impl Settings {
                 lens: scene.lens,
                 hole: scene.hole,
                 aperture: scene.aperture.clone(),
+                shutter: scene.shutter,
                 size: scene.size,
                 max_bounces: scene.max_bounces,
                 jitter: DEFAULT_JITTER,
@@ -155,9 +167,32 @@ impl Settings {
                 noise_threshold: 0.0,
                 scene,
             },
-            view: View { exposure_stops: 0.0, overlay: None },
+            view,
             samples: DEFAULT_SAMPLES,
         }
+    }
+
+    /// How often as bright the picture is shown: relative to the scene with its own lens, shutter and film.
+    /// The light that comes in goes with the time, and with the inverse square of the f-number, unless the
+    /// exposure is locked or there is a pinhole, through which none would.
+    pub fn exposure(&self) -> f32 {
+        let (estimator, scene) = (&self.estimator, &*self.estimator.scene);
+        let mut light = f64::from(estimator.shutter / scene.shutter) * f64::from(self.view.iso / scene.iso);
+        if !self.view.exposure_lock {
+            let f_numbers = match estimator.model {
+                CameraModel::ThinLens => [scene.camera.f_number(scene.lens.diameter), estimator.f_number()],
+                CameraModel::Pinhole => [1.0; 2],
+                CameraModel::Hole => [
+                    scene.camera.f_number(scene.hole.diameter),
+                    estimator.camera.f_number(estimator.hole.diameter),
+                ],
+            };
+            let [of_scene, now] = f_numbers;
+            if of_scene.is_finite() && now.is_finite() {
+                light *= (of_scene / now).powi(2);
+            }
+        }
+        self.view.exposure_stops.exp2() * light as f32
     }
 
     /// Holds every number against its range.
@@ -174,6 +209,8 @@ impl Settings {
         if let Some(fault) = self.estimator.aperture.fault() {
             return Err(Error::OutOfRange(fault));
         }
+        in_range("shutter", self.estimator.shutter, SHUTTERS[0], SHUTTERS[1])?;
+        in_range("iso", self.view.iso, ISOS[0], ISOS[1])?;
         in_range("jitter", *jitter, 0.0, MAX_JITTER)?;
         in_range("max-bounces", *max_bounces, 0, MAX_BOUNCES)?;
         in_range("noise-threshold", *noise_threshold, 0.0, 1.0)?;

@@ -44,7 +44,8 @@ pub fn probe_as<In: Pod, Out: Pod>(
     let output = Buffer::new(device, "probe outputs", bytes as u64, Residence::Host).expect("a buffer");
     let output = Arc::new(output);
     let front = [Binding::Buffer(input), Binding::Buffer(Arc::clone(&output))];
-    let scene = scene.map(|scene| SceneBuffers::new(device, &SceneData::new(scene)).expect("a scene"));
+    let scene =
+        scene.map(|scene| SceneBuffers::new(device, &SceneData::new(scene, scene.shutter)).expect("a scene"));
     let (mut bindings, constants) = match &scene {
         Some(scene) => (scene.bindings(&front), scene.constants([sampler, 0])),
         None => ((0..).zip(front).collect(), vec![sampler]),
