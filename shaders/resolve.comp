@@ -8,30 +8,42 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
+#include "adaptive.glsl"
 #include "color.glsl"
-#include "film.glsl"
+#include "overlay.glsl"
 
 layout(set = 0, binding = 0, rgba32f) readonly uniform image2D film_image;
 layout(set = 0, binding = 1, rgba8) writeonly uniform image2D picture_image;
 
+// Of the overlays: depth along the axis, and second moments of luminance where the film has some.
+layout(set = 0, binding = 2, r32f) readonly uniform image2D depth_image;
+layout(set = 0, binding = 15, r32f) readonly uniform image2D film_moments;
+
 // 0: every texel is known to have a sample. Mesa's software device runs through what is not taken of a
 // branch as well, so the search is compiled in only where it may be needed.
-layout(constant_id = 0) const uint HAS_HOLES = 1u;
+layout(constant_id = 2) const uint HAS_HOLES = 1u;
+// Likewise.
+layout(constant_id = 3) const uint HAS_OVERLAY = 0u;
 
 layout(push_constant, std430) uniform ResolvePush {
     uvec2 extent;
     uint preview_stride; // of a lattice of pixels that is filled: (2, 2) + 4 i, or 2 i, or all
     float exposure; // linear factor
-    float count_scale; // where not 0, counts are shown, and this many times the count is white
+    OverlayScale overlay;
     uint blue_first; // 1: for a window whose pixels start with blue, and which takes the bytes as they are
 } push;
 
 const int SEARCH_RADIUS = 4;
 
+// The texel of the lattice that stands for a cell.
+ivec2 site_of(ivec2 cell) {
+    int site_in_cell = push.preview_stride == 4u ? 2 : 0;
+    return cell * int(push.preview_stride) + site_in_cell;
+}
+
 // The texel that a cell shows, or an empty one where it lies outside.
 vec4 film_at(ivec2 cell) {
-    int site_in_cell = push.preview_stride == 4u ? 2 : 0;
-    ivec2 site = cell * int(push.preview_stride) + site_in_cell;
+    ivec2 site = site_of(cell);
     if (site.x < 0 || site.y < 0 || !inside(uvec2(site), push.extent)) {
         return vec4(0.0);
     }
@@ -65,7 +77,12 @@ void main() {
     if (HAS_HOLES == 1u && film.w == 0.0) {
         film = nearest_sampled(ivec2(cell));
     }
-    vec3 shown = push.count_scale > 0.0 ? vec3(push.count_scale * film.w) : push.exposure * film.rgb;
+    vec3 shown = push.exposure * film.rgb;
+    if (HAS_OVERLAY == 1u) {
+        ivec2 site = min(site_of(ivec2(cell)), ivec2(push.extent) - 1);
+        float error = IS_ADAPTIVE == 1u ? relative_error(film, imageLoad(film_moments, site).r) : 0.0;
+        shown = overlay_color(push.overlay, shown, film.w, error, imageLoad(depth_image, site).r);
+    }
     vec4 color = vec4(srgb_encode(shown), 1.0);
     color = push.blue_first == 1u ? color.bgra : color;
     uvec2 end = min(first + push.preview_stride, push.extent);

@@ -10,9 +10,9 @@ use anyhow::{Context, Result, ensure};
 use common::{Gpu, decode_png, pixels, probe, prove};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use thinlens::gpu_types::ResolvePush;
+use thinlens::gpu_types::{OverlayScale, ResolvePush};
 use thinlens::output::write_png;
-use thinlens::passes::Resolve;
+use thinlens::passes::{Adaptive, Resolve};
 use thinlens::pending_file::PendingFile;
 use thinlens::vulkan::{Binding, BindingSet, Buffer, Commands, ComputePipeline, Image, Residence};
 
@@ -38,8 +38,12 @@ fn resolve(gpu: &Gpu, case: &Case) -> Result<Vec<u8>> {
     let device = gpu.device();
     let film = Arc::new(Image::rgba32f(device, "film", case.extent)?);
     let picture = Arc::new(Image::rgba8(device, "picture", case.extent)?);
+    let depth = Arc::new(Image::r32f(device, "depth", [1, 1])?);
+    let adaptive = Adaptive::new(device, None)?;
     let mut commands = Commands::new(device)?;
     let mut recording = commands.begin()?;
+    recording.clear(&depth);
+    adaptive.moments().iter().for_each(|moments| recording.clear(moments));
     recording.clear(&film);
     recording.clear(&picture);
     recording.submit()?;
@@ -51,17 +55,17 @@ fn resolve(gpu: &Gpu, case: &Case) -> Result<Vec<u8>> {
     probe::run(gpu, &fill, &BindingSet::new(&fill, &filled)?, &[], case.extent);
 
     let resolve = Resolve::new(device, gpu.shader("resolve"))?;
-    let bindings = resolve.bind(&film, &picture)?;
+    let bindings = resolve.bind(&film, &picture, &depth, &adaptive)?;
     let push = ResolvePush {
         extent: case.extent,
         preview_stride: case.preview_stride,
         exposure: case.exposure_stops.exp2(),
-        count_scale: 0.0,
+        overlay: OverlayScale::default(),
         blue_first: case.blue_first.into(),
     };
     let read = Buffer::new(device, "read-back", picture.byte_len(), Residence::Host)?;
     let mut recording = commands.begin()?;
-    resolve.record(&mut recording, &bindings, &push, case.has_holes);
+    resolve.record(&mut recording, &bindings, &push, case.has_holes, false);
     recording.barrier();
     recording.copy_image(&picture, &read);
     recording.submit()?;

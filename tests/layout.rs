@@ -2,7 +2,7 @@
 
 use std::mem::offset_of;
 use thinlens::gpu_types::*;
-use thinlens::passes::{Accumulate, Pick, Resolve, Select, Trace};
+use thinlens::passes::{Accumulate, Geometry, Pick, Resolve, Select, Trace};
 use thinlens::vulkan::StructLayout;
 
 /// A twin: name, fields with offsets, and size.
@@ -57,9 +57,15 @@ fn twins() -> Vec<Twin> {
             ]
         ),
         twin!("ApertureBuffer", ApertureBuffer, [shape, edges]),
+        twin!(
+            "OverlayScale",
+            OverlayScale,
+            [kind, full_scale, blur, inverse_image_distance, inverse_focal_distance]
+        ),
+        twin!("GeometryPush", GeometryPush, [camera, extent, top]),
         twin!("PickPush", PickPush, [camera, extent, position]),
         twin!("PickedRay", PickedRay, [origin, distance, direction, material]),
-        twin!("ResolvePush", ResolvePush, [extent, preview_stride, exposure, count_scale, blue_first]),
+        twin!("ResolvePush", ResolvePush, [extent, preview_stride, exposure, overlay, blue_first]),
     ]
 }
 
@@ -82,7 +88,9 @@ fn fault(layout: &StructLayout, (name, fields, size): &Twin) -> Option<String> {
 fn every_struct_of_the_shaders_has_its_twin() {
     let twins = twins();
     let mut seen = Vec::new();
-    for shader in [Trace::SHADER, Accumulate::SHADER, Select::SHADER, Resolve::SHADER, Pick::SHADER] {
+    for shader in
+        [Trace::SHADER, Accumulate::SHADER, Select::SHADER, Resolve::SHADER, Pick::SHADER, Geometry::SHADER]
+    {
         for layout in shader.interface().structs {
             // The block around a runtime array has the array for its one member.
             let block = layout.members.len() == 1 && layout.members[0].1 == 0;
@@ -100,6 +108,7 @@ fn every_struct_of_the_shaders_has_its_twin() {
             size_of::<SelectPush>(),
             size_of::<ResolvePush>(),
             size_of::<PickPush>(),
+            size_of::<GeometryPush>(),
         ];
         assert!(sizes.contains(&push), "{}: {push} bytes of push constants", shader.name);
         assert!(push <= 128, "{}: Vulkan promises 128 bytes", shader.name);

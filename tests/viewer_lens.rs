@@ -151,3 +151,21 @@ fn the_lens_is_chosen_by_name_and_by_f_number() {
     viewer.expect_picture("a hole", 0, &["-n", "2", "--preset", "50mm-f1.4", "--camera", "hole"]);
     viewer.close();
 }
+
+/// Catches an overlay that is not the one chosen, that a legend hides, or that does not follow the slider.
+#[test]
+fn overlays_are_shown_with_a_legend() {
+    let viewer = Viewer::start(SIZE, &["-n", "2", "--overlay", "depth"]);
+    let rows = usize::from(SIZE[1]) - 110;
+    viewer.wait_until_done();
+    viewer.expect_rows("depths", rows, 0, &["-n", "2", "--overlay", "depth"]);
+    let legend = || viewer.screen([535, 884], [240, 1]);
+    // Its background is dark, and not the picture.
+    assert!(legend().iter().all(|pixel| pixel.iter().all(|level| *level < 90)), "no legend");
+    viewer.drag("Focal plane distance", &[0.5, 0.55, 0.6], |viewer| viewer.state.borrow()[1] > 12.0);
+    viewer.wait_until_done();
+    let focal_distance = viewer.state.borrow()[1].to_string();
+    let nearer = ["-n", "2", "--overlay", "depth", "--focal-distance", &focal_distance];
+    viewer.expect_rows("depths for another focus", rows, 0, &nearer);
+    viewer.close();
+}

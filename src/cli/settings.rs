@@ -102,22 +102,41 @@ pub struct SettingsArgs {
     /// [default: 0]
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true)]
     exposure: Option<f32>,
-    /// Show each pixel's number of samples instead of the picture, in a PNG or the window: black for none,
-    /// white for --samples
-    #[arg(long, value_name = "count", value_enum, hide_possible_values = true)]
+    /// Show, in a PNG or the window, instead of the picture: circle-of-confusion (blue in front of the focal
+    /// plane, orange behind), depth, samples (count) or error of each pixel; or the picture with what is
+    /// sharp marked (focus-peaking), or what the focal plane cuts (focal-plane)
+    #[arg(
+        long,
+        value_name = "focus-peaking|focal-plane|circle-of-confusion|depth|count|error",
+        value_enum,
+        hide_possible_values = true
+    )]
     overlay: Option<OverlayArg>,
+    /// How wide a circle of confusion may be that counts as sharp, in pixels [default: 1]
+    #[arg(long, value_name = "PX", allow_negative_numbers = true)]
+    tolerance: Option<f32>,
 }
 
 /// What is shown instead of the picture.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum OverlayArg {
+    FocusPeaking,
+    FocalPlane,
+    CircleOfConfusion,
+    Depth,
     Count,
+    Error,
 }
 
 impl OverlayArg {
     fn plain(self) -> Overlay {
         match self {
+            Self::FocusPeaking => Overlay::FocusPeaking,
+            Self::FocalPlane => Overlay::FocalPlane,
+            Self::CircleOfConfusion => Overlay::Blur,
+            Self::Depth => Overlay::Depth,
             Self::Count => Overlay::Count,
+            Self::Error => Overlay::Error,
         }
     }
 }
@@ -235,7 +254,8 @@ impl SettingsArgs {
         estimator.seed = self.seed.unwrap_or(estimator.seed);
         estimator.noise_threshold = self.noise_threshold.unwrap_or(estimator.noise_threshold);
         settings.view.exposure_stops = self.exposure.unwrap_or(settings.view.exposure_stops);
-        settings.view.overlay = self.overlay.map(OverlayArg::plain);
+        settings.show(self.overlay.map(OverlayArg::plain));
+        settings.view.tolerance = self.tolerance.unwrap_or(settings.view.tolerance);
         settings.samples = self.samples.unwrap_or(samples);
         settings.check()?;
         Ok(settings)

@@ -9,7 +9,7 @@ pub use aperture::{Aperture, ApertureBuffer, aperture_constant, aperture_sums};
 pub use scene::{SceneData, Tree};
 
 use crate::scene::{CameraModel, Hole};
-use crate::settings::{Estimator, Sampler};
+use crate::settings::{Estimator, Overlay, Sampler, Settings};
 use bytemuck::{Pod, Zeroable};
 
 /// `Sphere` of scene.glsl.
@@ -185,8 +185,28 @@ pub struct ResolvePush {
     pub extent: [u32; 2],
     pub preview_stride: u32,
     pub exposure: f32,
-    pub count_scale: f32,
+    pub overlay: OverlayScale,
     pub blue_first: u32,
+}
+
+/// `OverlayScale` of overlay.glsl.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable, PartialEq, Default)]
+pub struct OverlayScale {
+    pub kind: u32,
+    pub full_scale: f32,
+    pub blur: f32,
+    pub inverse_image_distance: f32,
+    pub inverse_focal_distance: f32,
+}
+
+/// `GeometryPush` of geometry.comp.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct GeometryPush {
+    pub camera: Camera,
+    pub extent: [u32; 2],
+    pub top: u32,
 }
 
 /// `PickPush` of pick.comp.
@@ -208,9 +228,34 @@ pub struct PickedRay {
     pub material: u32,
 }
 
+impl OverlayScale {
+    /// How the overlay of these settings is drawn; of none, where there is none.
+    pub fn new(settings: &Settings) -> Self {
+        let Some(overlay) = settings.view.overlay else {
+            return Self::default();
+        };
+        let camera = Camera::new(&settings.estimator);
+        let kind = match overlay {
+            Overlay::Count => 1,
+            Overlay::Error => 2,
+            Overlay::Depth => 3,
+            Overlay::Blur => 4,
+            Overlay::FocusPeaking => 5,
+            Overlay::FocalPlane => 6,
+        };
+        Self {
+            kind,
+            full_scale: settings.overlay_scale(overlay),
+            blur: 2.0 * camera.lens_radius / camera.inverse_view_distance.abs(),
+            inverse_image_distance: camera.inverse_focal_distance,
+            inverse_focal_distance: settings.estimator.lens.focal_distance.recip(),
+        }
+    }
+}
+
 /// The specialization constants 0 and 1: `SAMPLER` of sampling.glsl, `IS_ADAPTIVE` of adaptive.glsl.
 pub fn estimator_constants(estimator: &Estimator) -> [u32; 2] {
-    [sampler_constant(estimator.sampler), estimator.is_adaptive().into()]
+    [sampler_constant(estimator.sampler), estimator.has_moments().into()]
 }
 
 /// `SAMPLER` of sampling.glsl, the specialization constant 0.

@@ -1,10 +1,12 @@
 //! The passes, in the order of the data: a pipeline and its `record()` each. Trace, accumulate and resolve
-//! make every picture; select belongs to adaptive ones, and pick says what lies under a pixel. A pass, its shader, its file and its debug label
+//! make every picture; select belongs to adaptive ones, pick says what lies under a pixel, and geometry how
+//! deep all of them see. A pass, its shader, its file and its debug label
 //! share one name.
 
 mod accumulate;
 mod adaptive;
 mod blue_noise;
+mod geometry;
 mod opening;
 mod pick;
 mod resolve;
@@ -14,6 +16,7 @@ mod trace;
 pub use accumulate::Accumulate;
 pub use adaptive::Adaptive;
 pub use blue_noise::BlueNoiseTile;
+pub use geometry::Geometry;
 pub use opening::Opening;
 pub use pick::Pick;
 pub use resolve::Resolve;
@@ -35,6 +38,8 @@ pub struct Shaders {
     pub resolve: Shader,
     /// Beside them.
     pub pick: Shader,
+    /// For overlays.
+    pub geometry: Shader,
 }
 
 impl Default for Shaders {
@@ -45,6 +50,7 @@ impl Default for Shaders {
             select: Select::SHADER,
             resolve: Resolve::SHADER,
             pick: Pick::SHADER,
+            geometry: Geometry::SHADER,
         }
     }
 }

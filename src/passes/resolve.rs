@@ -1,5 +1,6 @@
 //! Turns the film's means into a picture.
 
+use super::Adaptive;
 use crate::error::Result;
 use crate::gpu_types::ResolvePush;
 use crate::vulkan::{Binding, BindingSet, ComputePipeline, Device, Image, Recording, Shader, shader};
@@ -9,6 +10,9 @@ use std::sync::Arc;
 pub struct Resolve {
     with_holes: ComputePipeline,
     without_holes: ComputePipeline,
+    /// With what an overlay needs, for films with moments and without, once one was shown.
+    overlays: [Option<ComputePipeline>; 2],
+    shader: Shader,
 }
 
 impl Resolve {
@@ -20,28 +24,52 @@ impl Resolve {
     /// # Errors
     /// What Vulkan says.
     pub fn new(device: &Arc<Device>, shader: Shader) -> Result<Self> {
-        let with = |has_holes: bool| ComputePipeline::new(device, shader, &[has_holes.into()]);
-        Ok(Self { with_holes: with(true)?, without_holes: with(false)? })
+        let with = |has_holes: bool| ComputePipeline::new(device, shader, &[0, 0, has_holes.into(), 0]);
+        Ok(Self { with_holes: with(true)?, without_holes: with(false)?, overlays: [None, None], shader })
     }
 
-    /// From `film` into `picture`.
+    /// Compiles what overlays need, unless it is there: to be called before one is recorded.
     ///
     /// # Errors
     /// What Vulkan says.
-    pub fn bind(&self, film: &Arc<Image>, picture: &Arc<Image>) -> Result<BindingSet> {
-        let images = [(0, Binding::Image(Arc::clone(film))), (1, Binding::Image(Arc::clone(picture)))];
-        BindingSet::new(&self.with_holes, &images)
+    pub fn prepare_overlay(&mut self, device: &Arc<Device>, has_moments: bool) -> Result<()> {
+        let overlay = &mut self.overlays[usize::from(has_moments)];
+        if overlay.is_none() {
+            *overlay = Some(ComputePipeline::new(device, self.shader, &[0, has_moments.into(), 1, 1])?);
+        }
+        Ok(())
+    }
+
+    /// From `film` into `picture`. Overlays also look at `depth` and `moments`.
+    ///
+    /// # Errors
+    /// What Vulkan says.
+    pub fn bind(
+        &self,
+        film: &Arc<Image>,
+        picture: &Arc<Image>,
+        depth: &Arc<Image>,
+        adaptive: &Adaptive,
+    ) -> Result<BindingSet> {
+        let image = |image: &Arc<Image>| Binding::Image(Arc::clone(image));
+        let list = adaptive.bind_list(13, 0);
+        let bindings = [(0, image(film)), (1, image(picture)), (2, image(depth)), list];
+        BindingSet::new(&self.with_holes, &[&bindings[..], &[adaptive.bind_film_moments()]].concat())
     }
 
     /// Resolves the whole picture. Without `has_holes` every texel that it looks at must have a sample.
+    /// `has_moments`: whether the film does.
     pub fn record(
         &self,
         recording: &mut Recording<'_>,
         bindings: &BindingSet,
         push: &ResolvePush,
         has_holes: bool,
+        has_moments: bool,
     ) {
-        let pipeline = if has_holes { &self.with_holes } else { &self.without_holes };
+        let plain = if has_holes { &self.with_holes } else { &self.without_holes };
+        let overlay = self.overlays[usize::from(has_moments)].as_ref().filter(|_| push.overlay.kind != 0);
+        let pipeline = overlay.unwrap_or(plain);
         let cells = push.extent.map(|pixels| pixels.div_ceil(push.preview_stride));
         recording.dispatch(pipeline, bindings, bytemuck::bytes_of(push), cells);
     }

@@ -14,6 +14,8 @@ pub(super) struct Film {
     pub(super) film: Arc<Image>,
     /// The resolved picture.
     pub(super) picture: Arc<Image>,
+    /// How deep each pixel sees, once an overlay wants to know; of one pixel until then.
+    pub(super) depth: Arc<Image>,
     pub(super) adaptive: Adaptive,
     /// By the list that is read.
     pub(super) accumulate: [BindingSet; 2],
@@ -23,6 +25,8 @@ pub(super) struct Film {
     /// Resolves the tracing image instead of the film.
     pub(super) resolve_preview: BindingSet,
     initialized: bool,
+    /// Of the depth.
+    has_layout: bool,
 }
 
 impl Film {
@@ -42,7 +46,8 @@ impl Film {
         let batch = Arc::new(Image::rgba32f(device, "tracing image", size)?);
         let film = Arc::new(Image::rgba32f(device, "accumulation image", size)?);
         let picture = Arc::new(Image::rgba8(device, "picture", size)?);
-        let adaptive = Adaptive::new(device, passes.select.as_ref().map(|_| size))?;
+        let depth = Arc::new(Image::r32f(device, "depth", [1, 1])?);
+        let adaptive = Adaptive::new(device, passes.has_moments.then_some(size))?;
         let merge = |list| passes.accumulate.bind(&batch, &film, &adaptive, list);
         let select = passes.select.as_ref().map(|select| {
             let choose = |list| select.bind(&batch, &film, &adaptive, list);
@@ -51,14 +56,37 @@ impl Film {
         Ok(Self {
             accumulate: [merge(0)?, merge(1)?],
             select: select.transpose()?,
-            resolve: resolve.bind(&film, &picture)?,
-            resolve_preview: resolve.bind(&batch, &picture)?,
+            resolve: resolve.bind(&film, &picture, &depth, &adaptive)?,
+            resolve_preview: resolve.bind(&batch, &picture, &depth, &adaptive)?,
             batch,
             film,
             picture,
+            depth,
             adaptive,
             initialized: false,
+            has_layout: false,
         })
+    }
+
+    /// Makes room for the depth of every pixel. Whether there was none.
+    pub(super) fn fit_depth(&mut self, device: &Arc<Device>, resolve: &Resolve) -> Result<bool> {
+        let size = self.film.extent();
+        if self.depth.extent() == size {
+            return Ok(false);
+        }
+        self.depth = Arc::new(Image::r32f(device, "depth", size)?);
+        self.resolve = resolve.bind(&self.film, &self.picture, &self.depth, &self.adaptive)?;
+        self.resolve_preview = resolve.bind(&self.batch, &self.picture, &self.depth, &self.adaptive)?;
+        self.has_layout = false;
+        Ok(true)
+    }
+
+    /// Gives the depth image its layout, if it has none yet.
+    pub(super) fn record_depth_layout(&mut self, recording: &mut Recording<'_>) {
+        if !self.has_layout {
+            recording.clear(&self.depth);
+            self.has_layout = true;
+        }
     }
 
     /// Empties the tracing image, so that nothing of the last picture is shown, unless it is only looked

@@ -3,6 +3,7 @@
 //! Work is recorded in tiles whose time is bounded; whole passes are merged into the film.
 //! None of that changes the picture: see [`schedule`].
 
+mod depth;
 mod film;
 mod headless;
 mod pick;
@@ -15,14 +16,16 @@ pub use tally::Progress;
 
 use crate::error::{Error, Result};
 use crate::gpu_types::{
-    ApertureBuffer, Counters, ResolvePush, SceneData, aperture_constant, aperture_sums, estimator_constants,
+    ApertureBuffer, Counters, OverlayScale, ResolvePush, SceneData, aperture_constant, aperture_sums,
+    estimator_constants,
 };
 use crate::passes::{
-    Accumulate, BlueNoiseTile, Opening, Pick, Resolve, SceneBuffers, Select, Shaders, Trace,
+    Accumulate, BlueNoiseTile, Geometry, Opening, Pick, Resolve, SceneBuffers, Select, Shaders, Trace,
 };
 use crate::scene::{ApertureImage, SceneRef};
-use crate::settings::{Estimator, Overlay, Settings};
+use crate::settings::{Estimator, Settings};
 use crate::vulkan::{BindingSet, Buffer, Device, FRAMES_IN_FLIGHT, Image, Recording, Residence, SOFTWARE};
+use depth::Seen;
 use film::Film;
 use pick::Question;
 use schedule::{Cursor, MAX_BATCH, reach};
@@ -67,6 +70,8 @@ pub struct Renderer {
     needs_clear: bool,
     /// How the picture was resolved, and whether with holes, unless the film has changed since.
     resolved: Option<(ResolvePush, bool)>,
+    /// What the depth of the film is of, once it has some.
+    seen: Option<Seen>,
     blue_first: bool,
     /// By the frame in flight that will answer.
     questions: [Option<Question>; FRAMES_IN_FLIGHT],
@@ -81,6 +86,8 @@ struct EstimatorPasses {
     /// For which: see [`estimator_constants`].
     constants: [u32; 2],
     accumulate: Accumulate,
+    /// Whether the film has second moments.
+    has_moments: bool,
     /// Of adaptive ones.
     select: Option<Select>,
 }
@@ -96,6 +103,8 @@ struct LoadedScene {
     shutter: f32,
     /// Once something was asked of it.
     pick: Option<Pick>,
+    /// Once an overlay was shown that needs it.
+    geometry: Option<Geometry>,
 }
 
 impl Renderer {
@@ -133,6 +142,7 @@ impl Renderer {
             filled_stride: 1,
             needs_clear: false,
             resolved: None,
+            seen: None,
             blue_first: false,
             questions: pick::no_questions(),
             max_batch: MAX_BATCH,
@@ -164,10 +174,13 @@ impl Renderer {
             last.is_none_or(|last| last.estimator != settings.estimator) || settings.samples < self.samples;
         let estimator = &settings.estimator;
         let constants = estimator_constants(estimator);
-        if self.passes.as_ref().is_none_or(|passes| passes.constants != constants) {
+        let compiled = |passes: &EstimatorPasses| {
+            passes.constants == constants && passes.select.is_some() == estimator.is_adaptive()
+        };
+        if !self.passes.as_ref().is_some_and(compiled) {
             self.device.wait_idle()?;
             (self.scene, self.film, self.trace_bindings) = (None, None, None);
-            self.passes = Some(self.compile_passes(constants, estimator.is_adaptive())?);
+            self.passes = Some(self.compile_passes(constants, estimator)?);
         }
         // The tree holds all that its shapes pass while the shutter is open.
         let fits = |loaded: &LoadedScene| {
@@ -184,6 +197,7 @@ impl Renderer {
             (self.film, self.trace_bindings) = (None, None);
             self.film = Some(Film::new(&self.device, estimator.size, passes, &self.resolve)?);
         }
+        self.fit_overlay(settings)?;
         if let (None, Some(loaded), Some(film)) = (&self.trace_bindings, &self.scene, &self.film) {
             let (scene, batch, adaptive) = (&loaded.buffers, &film.batch, &film.adaptive);
             let bind = |list| loaded.trace.bind(scene, &self.opening, batch, &self.counters, adaptive, list);
@@ -220,11 +234,13 @@ impl Renderer {
         }
     }
 
-    fn compile_passes(&self, constants: [u32; 2], adaptive: bool) -> Result<EstimatorPasses> {
+    fn compile_passes(&self, constants: [u32; 2], estimator: &Estimator) -> Result<EstimatorPasses> {
         let accumulate = Accumulate::new(&self.device, self.shaders.accumulate, constants, &self.tile)?;
-        let select =
-            adaptive.then(|| Select::new(&self.device, self.shaders.select, constants)).transpose()?;
-        Ok(EstimatorPasses { constants, accumulate, select })
+        let select = estimator
+            .is_adaptive()
+            .then(|| Select::new(&self.device, self.shaders.select, constants))
+            .transpose()?;
+        Ok(EstimatorPasses { constants, accumulate, has_moments: estimator.has_moments(), select })
     }
 
     /// Makes the trace pass and what it binds fit the aperture.
@@ -259,7 +275,8 @@ impl Renderer {
         let trace = Trace::new(&self.device, self.shaders.trace, constants, aperture, &buffers, &self.tile)?;
         self.tally.forget_scene();
         let moves = data.moves;
-        self.scene = Some(LoadedScene { scene, buffers, trace, aperture, moves, shutter, pick: None });
+        self.scene =
+            Some(LoadedScene { scene, buffers, trace, aperture, moves, shutter, pick: None, geometry: None });
         Ok(())
     }
 
@@ -277,6 +294,7 @@ impl Renderer {
     /// Records the resolve pass, if the picture is not up to date.
     pub fn record_resolve(&mut self, recording: &mut Recording<'_>) {
         self.record_clear(recording, true);
+        self.record_depth(recording);
         let (Some(settings), Some(film)) = (&self.settings, &self.film) else {
             return;
         };
@@ -285,21 +303,19 @@ impl Renderer {
             _ => (&film.resolve, 1),
         };
         let extent = settings.estimator.size;
-        let count_scale = match settings.view.overlay {
-            None => 0.0,
-            Some(Overlay::Count) => (settings.samples as f32).recip(),
-        };
         let exposure = settings.exposure();
+        let overlay = OverlayScale::new(settings);
         let blue_first = self.blue_first.into();
-        let push = ResolvePush { extent, preview_stride, exposure, count_scale, blue_first };
+        let push = ResolvePush { extent, preview_stride, exposure, overlay, blue_first };
         // A cell of the preview at the picture's edge may have no texel of its own.
         let has_holes =
             preview_stride > 1 || reach(settings.estimator.jitter) > 0 || self.tally.saw_rejected_samples();
         if self.resolved == Some((push, has_holes)) {
             return;
         }
+        let has_moments = settings.estimator.has_moments();
         recording.barrier();
-        self.resolve.record(recording, bindings, &push, has_holes);
+        self.resolve.record(recording, bindings, &push, has_holes, has_moments);
         recording.barrier();
         self.resolved = Some((push, has_holes));
     }

@@ -20,6 +20,12 @@ pub const F_NUMBERS: RangeInclusive<f64> = 0.01..=1e6;
 pub const SHUTTERS: [f32; 2] = [1e-6, 1e4];
 /// The slowest and fastest film.
 pub const ISOS: [f32; 2] = [0.1, 1e7];
+/// The error at which its overlay is white.
+const ERROR_SCALE: f32 = 0.1;
+/// What part of the picture's height a circle of confusion has at the end of its overlay's scale.
+const BLUR_SCALE: f32 = 30.0;
+/// The smallest and largest circle of confusion that can count as sharp, in pixels.
+pub const TOLERANCES: [f32; 2] = [0.01, 1000.0];
 /// The strongest exposure either way, in stops.
 pub const MAX_EXPOSURE_STOPS: f32 = 20.0;
 /// Samples per pixel of a headless picture, unless another number is asked for.
@@ -86,9 +92,16 @@ pub struct Estimator {
     /// Where not 0, a pixel stops once the standard error of its mean luminance, as a share of it or of
     /// 0.05, whichever is more, is below this in every pixel around it.
     pub noise_threshold: f32,
+    /// Whether the film keeps second moments, so that its error can be looked at. Adaptive ones always do.
+    pub keeps_moments: bool,
 }
 
 impl Estimator {
+    /// Whether the film has second moments.
+    pub fn has_moments(&self) -> bool {
+        self.keeps_moments || self.is_adaptive()
+    }
+
     /// Whether pixels stop by themselves.
     pub fn is_adaptive(&self) -> bool {
         self.noise_threshold > 0.0
@@ -136,8 +149,10 @@ pub struct View {
     pub iso: f32,
     /// Whether the brightness stays when the aperture changes.
     pub exposure_lock: bool,
-    /// What is shown instead of the picture, if anything.
+    /// What is shown instead of the picture, or on it, if anything.
     pub overlay: Option<Overlay>,
+    /// How wide a circle of confusion may be that counts as sharp, in pixels.
+    pub tolerance: f32,
 }
 
 /// What can be shown instead of the picture.
@@ -145,12 +160,30 @@ pub struct View {
 pub enum Overlay {
     /// Each pixel's number of samples, from black for none to white for as many as wanted.
     Count,
+    /// The standard error of each pixel's mean luminance, as a share of it.
+    Error,
+    /// The distance along the axis: white at the lens, grey in the focal plane, black far away.
+    Depth,
+    /// The circle of confusion: blue in front of the focal plane, orange behind it, white where it is sharp.
+    Blur,
+    /// The picture, with all marked whose circle of confusion is below [`View::tolerance`].
+    FocusPeaking,
+    /// The picture, with the slice marked that the focal plane cuts out of the scene.
+    FocalPlane,
+}
+
+impl Overlay {
+    /// Whether it needs the depth of each pixel.
+    pub fn shows_depth(self) -> bool {
+        !matches!(self, Self::Count | Self::Error)
+    }
 }
 
 impl Settings {
     /// The settings that a scene was composed for.
     pub fn of_scene(scene: SceneRef) -> Self {
-        let view = View { exposure_stops: 0.0, iso: scene.iso, exposure_lock: true, overlay: None };
+        let view =
+            View { exposure_stops: 0.0, iso: scene.iso, exposure_lock: true, overlay: None, tolerance: 1.0 };
         Self {
             estimator: Estimator {
                 camera: scene.camera,
@@ -165,10 +198,28 @@ impl Settings {
                 sampler: Sampler::default(),
                 seed: 0,
                 noise_threshold: 0.0,
+                keeps_moments: false,
                 scene,
             },
             view,
             samples: DEFAULT_SAMPLES,
+        }
+    }
+
+    /// Shows an overlay, or none. An error needs moments, which the film then keeps from its start.
+    pub fn show(&mut self, overlay: Option<Overlay>) {
+        self.view.overlay = overlay;
+        self.estimator.keeps_moments = overlay == Some(Overlay::Error);
+    }
+
+    /// Where the scale of an overlay ends: samples, share, or pixels.
+    pub fn overlay_scale(&self, overlay: Overlay) -> f32 {
+        match overlay {
+            Overlay::Count => self.samples as f32,
+            Overlay::Error => ERROR_SCALE,
+            Overlay::Blur => self.estimator.size[1] as f32 / BLUR_SCALE,
+            Overlay::FocusPeaking => self.view.tolerance,
+            Overlay::Depth | Overlay::FocalPlane => 1.0,
         }
     }
 
@@ -200,6 +251,9 @@ impl Settings {
     /// # Errors
     /// [`Error::OutOfRange`], naming the option, the value and the range.
     pub fn check(&self) -> Result<()> {
+        if self.view.overlay == Some(Overlay::Error) && !self.estimator.has_moments() {
+            return Err(Error::OutOfRange("the error is not known where no moments are kept".into()));
+        }
         let Estimator { lens, hole, size, jitter, max_bounces, noise_threshold, .. } = &self.estimator;
         in_range("size: width", size[0], 1, MAX_EXTENT)?;
         in_range("size: height", size[1], 1, MAX_EXTENT)?;
@@ -210,6 +264,7 @@ impl Settings {
             return Err(Error::OutOfRange(fault));
         }
         in_range("shutter", self.estimator.shutter, SHUTTERS[0], SHUTTERS[1])?;
+        in_range("tolerance", self.view.tolerance, TOLERANCES[0], TOLERANCES[1])?;
         in_range("iso", self.view.iso, ISOS[0], ISOS[1])?;
         in_range("jitter", *jitter, 0.0, MAX_JITTER)?;
         in_range("max-bounces", *max_bounces, 0, MAX_BOUNCES)?;

@@ -59,6 +59,7 @@ impl Gpu {
             select: self.shader("select"),
             resolve: self.shader("resolve"),
             pick: self.shader("pick"),
+            geometry: self.shader("geometry"),
         };
         Renderer::with_shaders(self.device(), shaders).expect("a renderer")
     }

@@ -239,14 +239,20 @@ impl Viewer {
 
     /// Waits until the screen shows what `render` gives, but for `tolerance` levels of a channel.
     pub fn expect_picture(&self, what: &str, tolerance: u8, render: &[&str]) {
+        self.expect_rows(what, usize::from(self.size[1]), tolerance, render);
+    }
+
+    /// Likewise, but only of the upper rows: there may be a legend below.
+    pub fn expect_rows(&self, what: &str, rows: usize, tolerance: u8, render: &[&str]) {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let size = format!("{}x{}", self.size[0], self.size[1]);
         let png = render_png(folder.path(), &[&["--size", &size], render].concat());
         let expected = right_of_panel(&decode_png(&png).1, usize::from(self.size[0]));
         let deadline = Instant::now() + PATIENCE;
+        let compared = rows * (usize::from(self.size[0]) - PICTURE_LEFT);
         loop {
             let shown = self.picture();
-            let worst = difference(&shown, &expected);
+            let worst = difference(&shown[..compared], &expected[..compared]);
             if worst <= tolerance {
                 break;
             }

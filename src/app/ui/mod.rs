@@ -3,12 +3,13 @@
 mod aperture;
 mod lens;
 mod numbers;
+mod overlay;
 mod widgets;
 
 use crate::error::Error;
 use crate::renderer::{Picked, Progress};
 use crate::scene::{self, ApertureImage, BUILTINS, CameraModel, SceneRef};
-use crate::settings::{DEFAULT_JITTER, Overlay, Settings};
+use crate::settings::{DEFAULT_JITTER, Settings, View};
 use imgui::{Condition, SliderFlags, Ui};
 use widgets::{Layout, named, note_item, section, tooltip};
 
@@ -122,6 +123,7 @@ impl Panel {
                 section(ui, "View", false, &mut layout, |layout| self.view(ui, layout));
                 section(ui, "Device", false, &mut layout, |_| device(ui, status));
             });
+        overlay::legend(ui, &self.settings);
         if layout != self.layout {
             for (name, [x, y, width, height]) in &layout {
                 log::debug!("control '{name}' at {x} {y} {width} {height}");
@@ -175,7 +177,8 @@ impl Panel {
                 (estimator.sampler, estimator.seed) = (now.estimator.sampler, now.estimator.seed);
                 estimator.noise_threshold = now.estimator.noise_threshold;
                 settings.samples = now.samples;
-                settings.view = now.view;
+                settings.view = View { iso: settings.view.iso, ..now.view };
+                settings.show(now.view.overlay);
                 self.initial = settings.clone();
                 self.settings = settings;
                 self.scene = name;
@@ -227,19 +230,6 @@ impl Panel {
                     .flags(SliderFlags::ALWAYS_CLAMP)
                     .build(&mut estimator.noise_threshold);
             },
-        );
-    }
-
-    fn view(&mut self, ui: &Ui, layout: &mut Layout) {
-        let overlay = &mut self.settings.view.overlay;
-        let mut counts = overlay.is_some();
-        if ui.checkbox("Show sample counts", &mut counts) {
-            *overlay = counts.then_some(Overlay::Count);
-        }
-        note_item(ui, "Show sample counts", layout);
-        tooltip(
-            ui,
-            "How many points each pixel has: black for none, white for as many as the slider above says.",
         );
     }
 

@@ -5,17 +5,15 @@ use crate::renderer::Picked;
 use crate::scene::{CameraModel, FRAME_HEIGHT_MM};
 use imgui::Ui;
 
-/// What counts as sharp, in pixels.
-const TOLERANCE: f64 = 1.0;
-
 impl Panel {
     pub(super) fn numbers(&self, ui: &Ui, picked: Option<&Picked>) {
         let estimator = &self.settings.estimator;
+        let tolerance = f64::from(self.settings.view.tolerance);
         let (camera, lens, height) = (&estimator.camera, &estimator.lens, estimator.size[1]);
         ui.text(format!("{:.0} mm on a 24 mm high frame", camera.focal_length_mm()));
         if estimator.model == CameraModel::ThinLens {
-            let [near, far] = camera.depth_of_field(lens, TOLERANCE, height);
-            let hyperfocal = camera.hyperfocal_distance(lens, TOLERANCE, height);
+            let [near, far] = camera.depth_of_field(lens, tolerance, height);
+            let hyperfocal = camera.hyperfocal_distance(lens, tolerance, height);
             ui.text(format!("sharp from {} to {}", length(near), length(far)));
             ui.text(format!("hyperfocal distance {}", length(hyperfocal)));
         }

@@ -1,0 +1,176 @@
+//! Overlays: what they show of depth, blur and error.
+
+mod common;
+
+use anyhow::{Result, ensure};
+use common::scenes::EVERYTHING;
+use common::{Gpu, circle_of_confusion, pixels, prove, settings_of, small};
+use thinlens::reference::{Reference, intersect, tone};
+use thinlens::renderer::Renderer;
+use thinlens::scene::{CameraModel, Hole};
+use thinlens::settings::{Overlay, Settings};
+
+/// The oracle's depth of each pixel's middle.
+fn depths(settings: &Settings) -> Vec<f64> {
+    let estimator = &settings.estimator;
+    let axis = (estimator.camera.look_at - estimator.camera.eye).as_dvec3().normalize();
+    let reference = Reference::new(estimator);
+    let depth = |pixel| {
+        let ray = reference.trace(pixel, [0.0; 2], [0.0; 2], 0.0).ray;
+        let hit = intersect::intersect(&estimator.scene, ray, 0.0);
+        hit.map_or(f64::INFINITY, |hit| hit.distance * ray.direction.dot(axis))
+    };
+    pixels(estimator.size).map(depth).collect()
+}
+
+/// What the device shows: r, g, b of each pixel.
+fn shown(renderer: &mut Renderer, settings: &Settings) -> Result<Vec<[u8; 3]>> {
+    renderer.set(settings)?;
+    renderer.render(|_| ())?;
+    let bytes = renderer.read_picture()?;
+    Ok(bytes.chunks_exact(4).map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect())
+}
+
+fn encoded(linear: [f64; 3]) -> [u8; 3] {
+    linear.map(|value| (255.0 * tone::srgb(value)).round() as u8)
+}
+
+fn mix(from: [f64; 3], to: [f64; 3], share: f64) -> [f64; 3] {
+    [0, 1, 2].map(|channel| from[channel] + share * (to[channel] - from[channel]))
+}
+
+/// What an overlay should show of a pixel, by the definitions of the panel's help.
+fn expected(settings: &Settings, overlay: Overlay, texel: [f32; 4], depth: f64) -> [f64; 3] {
+    let estimator = &settings.estimator;
+    let focal_distance = f64::from(estimator.lens.focal_distance);
+    let k = estimator.camera.view_distance_pixels(estimator.size[1]);
+    let picture = [0, 1, 2].map(|channel| f64::from(settings.exposure()) * f64::from(texel[channel]));
+    let blur = match estimator.model {
+        CameraModel::ThinLens if depth.is_infinite() => {
+            f64::from(estimator.lens.diameter) / focal_distance * k
+        }
+        CameraModel::ThinLens => {
+            let lens = f64::from(estimator.lens.diameter);
+            circle_of_confusion(lens, focal_distance, depth, k) * (depth - focal_distance).signum()
+        }
+        CameraModel::Pinhole => 0.0,
+        // A far point's picture is as wide as the hole, a nearer one's wider, by similar triangles.
+        CameraModel::Hole => {
+            let film = estimator.camera.film_distance();
+            -f64::from(estimator.hole.diameter) * (1.0 + film / depth) * k / film
+        }
+    };
+    match overlay {
+        Overlay::Depth if depth.is_infinite() => [0.0; 3],
+        Overlay::Depth => [focal_distance / (focal_distance + depth); 3],
+        Overlay::Blur => {
+            let share = (blur.abs() / (f64::from(estimator.size[1]) / 30.0)).min(1.0);
+            mix([1.0; 3], if blur < 0.0 { [0.02, 0.22, 1.0] } else { [1.0, 0.2, 0.01] }, share)
+        }
+        Overlay::FocusPeaking => {
+            let sharp = blur.abs() <= f64::from(settings.view.tolerance);
+            mix(picture, [0.05, 1.0, 0.1], if sharp { 0.6 } else { 0.0 })
+        }
+        Overlay::FocalPlane => {
+            let cut = (depth / focal_distance - 1.0).abs() <= 0.006;
+            mix(picture, [1.0, 0.6, 0.0], if cut { 0.75 } else { 0.0 })
+        }
+        Overlay::Count | Overlay::Error => unreachable!("they know no depth"),
+    }
+}
+
+/// Catches a distance along the ray for the depth, sides that are swapped, another pixel's depth, marks of
+/// another thickness or on one side alone, a hole that is taken for a lens, and depths that stay when camera or
+/// scene change: each pixel against the oracle's depth.
+#[test]
+fn overlays_show_depth_and_blur() {
+    let mut hole = small("version-4");
+    hole.estimator.model = CameraModel::Hole;
+    hole.estimator.hole = Hole { diameter: 0.004, upright: false };
+    let mut pinhole = small("suffern-boxes");
+    pinhole.estimator.model = CameraModel::Pinhole;
+    let mut nearer = small("version-4");
+    nearer.estimator.lens.focal_distance = 6.0;
+    nearer.view.exposure_stops = 0.5;
+    let mut turned = small("version-4");
+    turned.estimator.camera.look_at.x += 2.0;
+    let mut settings =
+        vec![small("version-4"), nearer, turned, hole, settings_of(EVERYTHING, [64, 48], 4), pinhole];
+    settings.iter_mut().for_each(|settings| settings.view.tolerance = 1.5);
+    let check = |gpu: &Gpu| -> Result<String> {
+        let mut renderer = gpu.renderer();
+        let (mut count, mut differ, mut marked) = (0, 0, 0);
+        for settings in &settings {
+            let depths = depths(settings);
+            for overlay in [Overlay::Depth, Overlay::Blur, Overlay::FocusPeaking, Overlay::FocalPlane] {
+                let mut settings = settings.clone();
+                let plain = shown(&mut renderer, &settings)?;
+                let film = renderer.read_film()?;
+                settings.show(Some(overlay));
+                let got = shown(&mut renderer, &settings)?;
+                for (i, (texel, depth)) in film.iter().zip(&depths).enumerate() {
+                    let expected = encoded(expected(&settings, overlay, *texel, *depth));
+                    // Next to edges rounding decides what a ray meets, and at a mark's edge whether it is in.
+                    let off = (0..3).map(|c| got[i][c].abs_diff(expected[c])).max().unwrap_or(0);
+                    differ += u32::from(off > 2);
+                    marked += u32::from(got[i] != plain[i]);
+                    count += 1;
+                }
+            }
+        }
+        ensure!(marked > count / 3, "only {marked} of {count} pixels show anything");
+        ensure!(differ * 400 <= count, "{differ} of {count} pixels are not the oracle's");
+        Ok(format!("{count} pixels, {differ} differ"))
+    };
+    prove(
+        check,
+        &[
+            "depth_along_the_ray",
+            "blur_on_the_other_side",
+            "blur_of_a_lens_focused_far_away",
+            "peaking_of_all_in_front",
+            "slice_three_times_as_thick",
+            "overlay_of_the_pixel_beside",
+        ],
+    );
+}
+
+/// Catches an error that is not the standard error of the mean as a share of it, as f64 has it from the same
+/// samples; and a film whose samples are others because it is looked at.
+#[test]
+fn the_error_is_that_of_the_samples() {
+    let mut settings = small("version-4");
+    let plain = common::film(&Gpu::new(), &settings);
+    settings.show(Some(Overlay::Error));
+    let reference = Reference::new(&settings.estimator);
+    let luminance = |color: glam::DVec3| color.dot(glam::DVec3::new(0.2126, 0.7152, 0.0722));
+    let errors: Vec<f64> = pixels(settings.estimator.size)
+        .map(|pixel| {
+            let samples: Vec<f64> = (0..settings.samples)
+                .map(|index| luminance(reference.sample(pixel, index).radiance))
+                .collect();
+            let count = samples.len() as f64;
+            let mean = samples.iter().sum::<f64>() / count;
+            let moment: f64 = samples.iter().map(|sample| (sample - mean).powi(2)).sum();
+            (moment / (count * (count - 1.0))).sqrt() / mean.max(0.05)
+        })
+        .collect();
+    let check = |gpu: &Gpu| -> Result<String> {
+        let mut renderer = gpu.renderer();
+        let got = shown(&mut renderer, &settings)?;
+        let film = renderer.read_film()?;
+        let off = film.iter().zip(&plain).filter(|(a, b)| (a[1] - b[1]).abs() > 1e-5).count();
+        ensure!(off == 0, "{off} pixels are others");
+        let mut differ = 0;
+        for (got, error) in got.iter().zip(&errors) {
+            let share = error / 0.1;
+            let heat = [3.0 * share, 3.0 * share - 1.0, 3.0 * share - 2.0].map(|part| part.clamp(0.0, 1.0));
+            let expected = encoded(heat);
+            // The curve is steep near black.
+            differ += u32::from((0..3).any(|c| got[c].abs_diff(expected[c]) > 3));
+        }
+        ensure!(differ < 30, "{differ} of {} pixels show another error", errors.len());
+        Ok(format!("{} pixels, {differ} differ", errors.len()))
+    };
+    prove(check, &["error_without_its_scale", "error_of_a_sample", "moments_of_samples_forgotten"]);
+}
