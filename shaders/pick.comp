@@ -2,35 +2,65 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 
-// What the camera sees at one place of the film: the ray through the centre of the lens, and what it
-// meets. For focusing, and for whoever wants to know what lies under the pointer.
+// What the camera sees at one place of the film, in the middle of the exposure: along the ray through the
+// centre of the lens, along a fan of rays up the lens and one across it, and along the first samples of the
+// pixel. For focusing, for the drawing of the optics, and for whoever wants to know what lies under the pointer.
 
-layout(local_size_x = 1) in;
+layout(local_size_x = 8) in;
 
 #include "intersect.glsl"
+#include "aperture.glsl"
 
 struct PickedRay {
     vec3 origin;
     float distance; // to what it meets; MISS where that is nothing
     vec3 direction;
     uint material;
+    vec3 focus; // where the centre ray of its film position meets the focal plane
 };
 
 layout(push_constant, std430) uniform PickPush {
     Camera camera;
     uvec2 extent;
     vec2 position; // in pixels from the picture's upper left corner
+    uint fan; // rays each, more than one
+    uint samples;
+    uint seed;
 } push;
 
 layout(set = 0, binding = 0, std430) writeonly buffer PickedRays { PickedRay picked[]; };
 
+// The point of the lens, of radius one, of a ray through its centre or of a fan.
+vec2 opening_point(uint ray) {
+    if (ray == 0u) {
+        return vec2(0.0);
+    }
+    uint of_fan = (ray - 1u) % push.fan;
+    float along = 2.0 * float(of_fan) / float(push.fan - 1u) - 1.0;
+    return ray <= push.fan ? vec2(0.0, along) : vec2(along, 0.0);
+}
+
 void main() {
     keep_scene();
+    keep_aperture();
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= 1u + 2u * push.fan + push.samples) {
+        return;
+    }
     uvec2 pixel = uvec2(push.position);
     vec2 offset = push.position - vec2(pixel) - 0.5;
     vec2 q = view_plane_point(push.camera, push.extent, pixel, offset);
-    Ray ray = primary_ray(push.camera, q, vec2(0.0));
+    vec2 opening = opening_point(i);
+    if (i > 2u * push.fan) {
+        uvec4 keys = sample_keys(push.seed, pixel, BLOCK_FILM_AND_LENS);
+        vec4 xi = sample_values(keys, i - 1u - 2u * push.fan);
+        q = view_plane_point(push.camera, push.extent, pixel, film_offset(xi.xy, push.camera.jitter));
+        opening = aperture_point(q, xi.zw).xy;
+    }
+    Ray ray = primary_ray(push.camera, q, opening);
     bool given_up = false;
     Hit hit = intersect_scene(ray, given_up);
-    picked[0] = PickedRay(ray.origin, given_up ? MISS : hit.distance, ray.direction, hit.material);
+    Camera camera = push.camera;
+    vec3 focus = camera.eye + (q.x * camera.u + q.y * camera.v - camera.w) / camera.inverse_focal_distance;
+    picked[i] = PickedRay(ray.origin, given_up ? MISS : hit.distance, ray.direction, hit.material, focus);
 }

@@ -6,6 +6,7 @@ use anyhow::{Result, ensure};
 use common::scenes::EVERYTHING;
 use common::{Gpu, prove, run, settings_of, small};
 use thinlens::reference::{Reference, intersect};
+use thinlens::renderer::Question;
 use thinlens::scene::{CameraModel, Hole};
 use thinlens::settings::Settings;
 
@@ -42,15 +43,15 @@ fn the_device_knows_what_lies_under_a_pixel() {
             let mut renderer = gpu.renderer();
             renderer.set(settings)?;
             for place in places(settings.estimator.size) {
-                let picked = renderer.pick(place)?.expect("an answer");
-                ensure!(picked.position == place, "the answer is to {:?}", picked.position);
+                let picked = renderer.pick(Question::at(place))?.expect("an answer");
+                ensure!(picked.question.position == place, "the answer is to {:?}", picked.question);
                 match (picked.surface, depth(settings, place)) {
                     (Some(surface), Some(expected)) => {
                         let error = (surface.depth / expected - 1.0).abs();
                         worst = worst.max(error);
                         ensure!(error < 1e-4, "{place:?}: {} deep, not {expected}", surface.depth);
                         ensure!(!surface.material.is_empty(), "{place:?}: a material without a name");
-                        let along = f64::from(surface.point.distance(settings.estimator.camera.eye));
+                        let along = surface.point.distance(settings.estimator.camera.eye.as_dvec3());
                         off_axis = off_axis.max(along / expected - 1.0);
                         surfaces += 1;
                     }
@@ -66,6 +67,64 @@ fn the_device_knows_what_lies_under_a_pixel() {
     prove(
         check,
         &["picked_half_a_pixel_off", "picked_through_the_rim", "picture_mirrored", "picture_upside_down"],
+    );
+}
+
+/// Catches fans that leave out part of the lens or lie across where they should go up, rays that do not meet
+/// at the device's own point in focus, and samples that are not those of the pixel.
+#[test]
+fn the_rays_of_a_place_go_through_its_point_in_focus() {
+    let mut settings = small("version-4");
+    settings.estimator.seed = 5;
+    let check = |gpu: &Gpu| -> Result<String> {
+        let estimator = &settings.estimator;
+        let (mut renderer, frame) = (gpu.renderer(), estimator.camera.frame());
+        renderer.set(&settings)?;
+        let (mut rays, mut worst) = (0, 0.0_f64);
+        let (eye, radius) = (estimator.camera.eye.as_dvec3(), f64::from(estimator.lens.diameter) / 2.0);
+        for position in [[3.5, 40.5], [32.0, 24.0], [60.25, 7.75]] {
+            let question = Question { position, fan: 9, samples: 16 };
+            let picked = renderer.pick(question)?.expect("an answer");
+            let focal_distance = f64::from(estimator.lens.focal_distance);
+            let depth = frame.axial_depth(estimator.camera.eye, picked.focus);
+            ensure!((depth / focal_distance - 1.0).abs() < 1e-5, "the point in focus is {depth} deep");
+            let (up, across) = (picked.fan_up(), picked.fan_across());
+            for (fan, along, aside) in [(up, frame.v(), frame.u()), (across, frame.u(), frame.v())] {
+                for (i, ray) in fan.iter().enumerate() {
+                    let expected = radius * (i as f64 / 4.0 - 1.0);
+                    let [on, off] = [along, aside].map(|axis| (ray.origin - eye).dot(axis));
+                    ensure!(
+                        (on - expected).abs() + off.abs() < 1e-4 * radius + 1e-6,
+                        "ray {i} starts at {on}, {off}"
+                    );
+                    let to_focus = picked.focus - ray.origin;
+                    let beside = to_focus.cross(ray.direction).length() / focal_distance;
+                    worst = worst.max(beside);
+                    ensure!(beside < 1e-4, "ray {i} passes {beside:.1e} F beside the point in focus");
+                    rays += 1;
+                }
+            }
+            let reference = Reference::new(estimator);
+            let pixel = position.map(|at| at as u32);
+            for (index, ray) in (0..).zip(picked.samples()) {
+                let expected = reference.sample(pixel, index).ray;
+                let off =
+                    (ray.origin - expected.origin).length() + (ray.direction - expected.direction).length();
+                ensure!(off < 1e-5, "sample {index} is {off:.1e} off");
+                rays += 1;
+            }
+        }
+        ensure!(rays == 3 * (18 + 16), "{rays} rays");
+        Ok(format!("{rays} rays, within {worst:.1e} F of the point in focus"))
+    };
+    prove(
+        check,
+        &[
+            "fan_of_half_the_lens",
+            "picked_samples_of_another_index",
+            "focal_sphere",
+            "lens_radius_times_1.05",
+        ],
     );
 }
 

@@ -63,8 +63,8 @@ fn twins() -> Vec<Twin> {
             [kind, full_scale, blur, inverse_image_distance, inverse_focal_distance]
         ),
         twin!("GeometryPush", GeometryPush, [camera, extent, top]),
-        twin!("PickPush", PickPush, [camera, extent, position]),
-        twin!("PickedRay", PickedRay, [origin, distance, direction, material]),
+        twin!("PickPush", PickPush, [camera, extent, position, fan, samples, seed]),
+        twin!("PickedRay", PickedRay, [origin, distance, direction, material, focus]),
         twin!("ResolvePush", ResolvePush, [extent, preview_stride, exposure, overlay, blue_first]),
     ]
 }

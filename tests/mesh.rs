@@ -330,7 +330,7 @@ fn check_stage(scene: &Scene) {
     let ground = scene.planes[0].shape;
     let gap = f64::from(lower.y - ground.point.y) / diagonal;
     assert!(ground.normal == Vec3::Y && (0.0..2e-3).contains(&gap), "the mesh is {gap} above the ground");
-    let depths = vertices.iter().map(|vertex| frame.axial_depth(camera.eye, *vertex));
+    let depths = vertices.iter().map(|vertex| frame.axial_depth(camera.eye, vertex.as_dvec3()));
     let (near, far) = depths.fold((f64::INFINITY, 0.0_f64), |(near, far), z| (near.min(z), far.max(z)));
     let focus = f64::from(lens.focal_distance);
     assert!((focus / near - 1.0).abs() < 1e-5, "{focus} is not {near}");

@@ -73,7 +73,7 @@ impl Focus {
         if self.asked.is_some() {
             return None;
         }
-        let known = self.under_pointer.as_ref().map(|picked| picked.position);
+        let known = self.under_pointer.as_ref().map(|picked| picked.question.position);
         let pointer = self.pointer.filter(|pointer| again || known != Some(*pointer));
         self.asked = self.wanted.or(pointer);
         self.asked
@@ -88,7 +88,8 @@ impl Focus {
         if self.wanted.is_some() && asked == self.wanted {
             self.wanted = None;
             let found = picked.surface.as_ref().map(|surface| surface.depth as f32);
-            self.mark = Some(Mark { at: picked.position, since: Instant::now(), found: found.is_some() });
+            self.mark =
+                Some(Mark { at: picked.question.position, since: Instant::now(), found: found.is_some() });
             if let Some(to) = found {
                 let to = to.clamp(MIN_LENGTH, MAX_LENGTH);
                 self.glide = Some(Glide { from: lens.focal_distance, to, since: Instant::now() });

@@ -2,7 +2,7 @@
 //! renderer.
 
 use crate::error::{Error, Result};
-use crate::renderer::{Pace, Picked, Progress, Renderer};
+use crate::renderer::{Pace, Picked, Progress, Question, Renderer};
 use crate::settings::Settings;
 use crate::vulkan::{
     Acquired, AcquiredImage, Commands, Device, FRAMES_IN_FLIGHT, Instance, Surface, Swapchain,
@@ -152,7 +152,7 @@ impl Graphics {
         }
         self.renderer.record_resolve(&mut recording);
         if let Some(position) = question {
-            self.renderer.record_pick(&mut recording, frame, position)?;
+            self.renderer.record_pick(&mut recording, frame, Question::at(position))?;
             self.asked[frame] = true;
         }
 

@@ -216,6 +216,9 @@ pub struct PickPush {
     pub camera: Camera,
     pub extent: [u32; 2],
     pub position: [f32; 2],
+    pub fan: u32,
+    pub samples: u32,
+    pub seed: u32,
 }
 
 /// `PickedRay` of pick.comp.
@@ -226,6 +229,8 @@ pub struct PickedRay {
     pub distance: f32,
     pub direction: [f32; 3],
     pub material: u32,
+    pub focus: [f32; 3],
+    pub pad0: u32,
 }
 
 impl OverlayScale {

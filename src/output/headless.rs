@@ -4,7 +4,7 @@ use super::progress::ProgressDisplay;
 use super::{PictureFormat, Stats, say, write_exr, write_png};
 use crate::error::{Error, Result};
 use crate::pending_file::PendingFile;
-use crate::renderer::Renderer;
+use crate::renderer::{Question, Renderer};
 use crate::settings::{DeviceChoice, Place, Settings};
 use crate::vulkan::{Device, Instance};
 use std::path::PathBuf;
@@ -70,7 +70,7 @@ fn focus(renderer: &mut Renderer, settings: &Settings, place: Place) -> Result<S
             "autofocus is at {x},{y}, but must be within the picture's {width}x{height} pixels"
         )));
     }
-    let Some(surface) = renderer.pick(position)?.and_then(|picked| picked.surface) else {
+    let Some(surface) = renderer.pick(Question::at(position))?.and_then(|picked| picked.surface) else {
         return Err(Error::NothingToFocusOn { x, y });
     };
     let mut focused = settings.clone();

@@ -11,7 +11,7 @@ pub mod schedule;
 mod tally;
 mod tiles;
 
-pub use pick::{Picked, Surface};
+pub use pick::{LensRay, Picked, Question, Surface};
 pub use tally::Progress;
 
 use crate::error::{Error, Result};
@@ -27,7 +27,7 @@ use crate::settings::{Estimator, Settings};
 use crate::vulkan::{BindingSet, Buffer, Device, FRAMES_IN_FLIGHT, Image, Recording, Residence, SOFTWARE};
 use depth::Seen;
 use film::Film;
-use pick::Question;
+use pick::Asked;
 use schedule::{Cursor, MAX_BATCH, reach};
 use std::sync::Arc;
 use std::time::Duration;
@@ -74,7 +74,7 @@ pub struct Renderer {
     seen: Option<Seen>,
     blue_first: bool,
     /// By the frame in flight that will answer.
-    questions: [Option<Question>; FRAMES_IN_FLIGHT],
+    questions: [Option<Asked>; FRAMES_IN_FLIGHT],
     max_batch: u32,
     /// What the scene's loops allow.
     largest_batch: u32,
@@ -144,7 +144,7 @@ impl Renderer {
             resolved: None,
             seen: None,
             blue_first: false,
-            questions: pick::no_questions(),
+            questions: pick::none_asked(),
             max_batch: MAX_BATCH,
             largest_batch: 1,
             device: Arc::clone(device),
@@ -252,6 +252,9 @@ impl Renderer {
             self.opening =
                 Opening::new(&self.device, &image.as_ref().map(aperture_sums).unwrap_or_default())?;
             (self.opening_image, self.opening_shape) = (image.clone(), None);
+            if let Some(loaded) = &mut self.scene {
+                loaded.pick = None;
+            }
         }
         let aperture = aperture_constant(estimator);
         if let Some(loaded) = self.scene.as_mut().filter(|loaded| loaded.aperture != aperture) {
@@ -260,7 +263,7 @@ impl Renderer {
             let shader = self.shaders.trace;
             loaded.trace =
                 Trace::new(&self.device, shader, constants, aperture, &loaded.buffers, &self.tile)?;
-            loaded.aperture = aperture;
+            (loaded.aperture, loaded.pick) = (aperture, None);
         }
         Ok(())
     }

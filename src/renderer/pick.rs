@@ -2,26 +2,59 @@
 
 use super::Renderer;
 use crate::error::Result;
-use crate::gpu_types::{Camera, PickPush, PickedRay};
+use crate::gpu_types::{Camera, PickPush};
 use crate::passes::Pick;
-use crate::scene::SceneRef;
+use crate::scene::{self, SceneRef};
 use crate::vulkan::{Commands, FRAMES_IN_FLIGHT, Recording};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
-/// What a place of the picture shows, through the centre of the lens.
+/// A place of the picture, and how many rays are of interest there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Question {
+    /// In pixels from the picture's upper left corner.
+    pub position: [f32; 2],
+    /// Rays of a fan up the lens, and of one across it: at least two each.
+    pub fan: u32,
+    /// The first samples of the pixel.
+    pub samples: u32,
+}
+
+impl Question {
+    /// What is there, with the fewest rays.
+    pub fn at(position: [f32; 2]) -> Self {
+        Self { position, fan: 2, samples: 0 }
+    }
+}
+
+/// What a place of the picture shows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picked {
-    /// The place, in pixels from the picture's upper left corner.
-    pub position: [f32; 2],
-    /// What is there; none where the sky is.
+    /// What was asked.
+    pub question: Question,
+    /// What is seen through the centre of the lens; none where the sky is.
     pub surface: Option<Surface>,
+    /// Where the centre ray meets the focal plane, as the device has it. Not finite without a lens.
+    pub focus: DVec3,
+    /// Through the centre of the lens, then those of the fan up, of the fan across, and the samples.
+    pub rays: Vec<LensRay>,
+}
+
+/// A ray from a point of the lens.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LensRay {
+    /// The point of the lens.
+    pub origin: DVec3,
+    /// Unit length.
+    pub direction: DVec3,
+    /// The distance to what it meets; infinite where that is nothing.
+    pub distance: f64,
 }
 
 /// A point of a surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surface {
     /// In the world.
-    pub point: Vec3,
+    pub point: DVec3,
     /// Its depth along the optical axis, in scene units: the focal distance at which it is in focus.
     pub depth: f64,
     /// The name of its material.
@@ -30,15 +63,34 @@ pub struct Surface {
 
 /// A question that a frame in flight will answer.
 #[derive(Debug, Clone)]
-pub(super) struct Question {
-    position: [f32; 2],
+pub(super) struct Asked {
+    question: Question,
     scene: SceneRef,
-    camera: crate::scene::Camera,
+    camera: scene::Camera,
+}
+
+impl Picked {
+    /// The rays of the fan up the lens, from its lower rim to its upper one.
+    pub fn fan_up(&self) -> &[LensRay] {
+        let fan = self.question.fan as usize;
+        &self.rays[1..=fan]
+    }
+
+    /// The rays of the fan across the lens, from left to right.
+    pub fn fan_across(&self) -> &[LensRay] {
+        let fan = self.question.fan as usize;
+        &self.rays[1 + fan..=2 * fan]
+    }
+
+    /// The first samples of the pixel.
+    pub fn samples(&self) -> &[LensRay] {
+        &self.rays[1 + 2 * self.question.fan as usize..]
+    }
 }
 
 impl Renderer {
-    /// Records the question what is at `position`, in pixels from the picture's upper left corner. A place
-    /// outside the picture is moved to its edge. [`Renderer::picked`] has the answer once the commands of `frame` are done.
+    /// Records a question. A place outside the picture is moved to its edge, and no more rays are traced than
+    /// [`Pick`] has room for. [`Renderer::picked`] has the answer once the commands of `frame` are done.
     ///
     /// # Errors
     /// What Vulkan says.
@@ -46,56 +98,76 @@ impl Renderer {
         &mut self,
         recording: &mut Recording<'_>,
         frame: usize,
-        position: [f32; 2],
+        question: Question,
     ) -> Result<()> {
-        let (Some(settings), Some(loaded), Some(passes)) = (&self.settings, &mut self.scene, &self.passes)
-        else {
+        let Some(settings) = self.settings.clone() else {
             return Ok(());
         };
         let estimator = &settings.estimator;
+        self.record_opening(recording, estimator);
+        let (Some(loaded), Some(passes)) = (&mut self.scene, &self.passes) else {
+            return Ok(());
+        };
         let pick = match &mut loaded.pick {
             Some(pick) => pick,
             none => {
-                let shader = self.shaders.pick;
-                none.insert(Pick::new(&self.device, shader, passes.constants, &loaded.buffers)?)
+                let (shader, constants, aperture) = (self.shaders.pick, passes.constants, loaded.aperture);
+                let (device, opening, tile) = (&self.device, &self.opening, &self.tile);
+                none.insert(Pick::new(device, shader, constants, aperture, &loaded.buffers, opening, tile)?)
             }
         };
         let extent = estimator.size;
         // The last f32 below the extent still has a pixel.
-        let inside = |axis: usize| position[axis].clamp(0.0, (extent[axis] as f32).next_down());
-        let position = [inside(0), inside(1)];
+        let inside = |axis: usize| question.position[axis].clamp(0.0, (extent[axis] as f32).next_down());
+        let question = Question {
+            position: [inside(0), inside(1)],
+            fan: question.fan.clamp(2, Pick::MOST_FAN),
+            samples: question.samples.min(Pick::MOST_SAMPLES),
+        };
+        let Question { position, fan, samples } = question;
+        let push =
+            PickPush { camera: Camera::new(estimator), extent, position, fan, samples, seed: estimator.seed };
         recording.barrier();
-        pick.record(recording, frame, &PickPush { camera: Camera::new(estimator), extent, position });
+        pick.record(recording, frame, &push);
         recording.barrier();
         let (scene, camera) = (estimator.scene.clone(), estimator.camera);
-        self.questions[frame] = Some(Question { position, scene, camera });
+        self.questions[frame] = Some(Asked { question, scene, camera });
         Ok(())
     }
 
     /// The answer of `frame`, whose commands are done: once, and none where none was asked for, or where
     /// the scene has changed since.
     pub fn picked(&mut self, frame: usize) -> Option<Picked> {
-        let Question { position, scene, camera } = self.questions[frame].take()?;
+        let Asked { question, scene, camera } = self.questions[frame].take()?;
         let loaded = self.scene.as_ref().filter(|loaded| loaded.scene == scene)?;
-        let PickedRay { origin, distance, direction, material } = loaded.pick.as_ref()?.read(frame);
-        let [origin, direction] = [origin, direction].map(Vec3::from_array);
-        let surface = (distance < MISS).then(|| {
-            let point = origin + distance * direction;
+        let rays = (1 + 2 * question.fan + question.samples) as usize;
+        let traced = loaded.pick.as_ref()?.read(frame, rays);
+        let vector = |vector: [f32; 3]| Vec3::from_array(vector).as_dvec3();
+        let rays: Vec<LensRay> = (traced.iter())
+            .map(|ray| LensRay {
+                origin: vector(ray.origin),
+                direction: vector(ray.direction),
+                distance: if ray.distance < MISS { ray.distance.into() } else { f64::INFINITY },
+            })
+            .collect();
+        let centre = rays[0];
+        let surface = centre.distance.is_finite().then(|| {
+            let point = centre.origin + centre.distance * centre.direction;
             let depth = camera.frame().axial_depth(camera.eye, point);
-            let material = scene.material_names.get(material as usize).cloned().unwrap_or_default();
-            Surface { point, depth, material }
+            let material = scene.material_names.get(traced[0].material as usize).cloned();
+            Surface { point, depth, material: material.unwrap_or_default() }
         });
-        Some(Picked { position, surface })
+        Some(Picked { question, surface, focus: vector(traced[0].focus), rays })
     }
 
-    /// What is at `position`, at once, without a window.
+    /// What is at a place of the picture, at once, without a window.
     ///
     /// # Errors
     /// What Vulkan says.
-    pub fn pick(&mut self, position: [f32; 2]) -> Result<Option<Picked>> {
+    pub fn pick(&mut self, question: Question) -> Result<Option<Picked>> {
         let mut commands = Commands::new(&self.device)?;
         let mut recording = commands.begin()?;
-        self.record_pick(&mut recording, 0, position)?;
+        self.record_pick(&mut recording, 0, question)?;
         recording.submit()?;
         commands.wait()?;
         Ok(self.picked(0))
@@ -105,6 +177,6 @@ impl Renderer {
 /// `MISS` of intersect.glsl.
 const MISS: f32 = 1e30;
 
-pub(super) fn no_questions() -> [Option<Question>; FRAMES_IN_FLIGHT] {
+pub(super) fn none_asked() -> [Option<Asked>; FRAMES_IN_FLIGHT] {
     std::array::from_fn(|_| None)
 }

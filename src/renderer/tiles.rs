@@ -30,11 +30,7 @@ impl Renderer {
         recording.barrier();
         // A preview shows no more of the tracing image than what it has filled.
         self.record_clear(recording, !pace.preview);
-        let shape = ApertureBuffer::new(&settings.estimator);
-        if self.opening_shape != Some(shape) {
-            self.opening.record(recording, &shape);
-            self.opening_shape = Some(shape);
-        }
+        self.record_opening(recording, &settings.estimator);
         recording.clear_buffer(&self.counters, size_of::<Counters>() as u64);
         self.tally.start(recording, frame);
         let mut done = Work::default();
@@ -65,6 +61,15 @@ impl Renderer {
         let list = self.list.filter(|list| list_before != Some(*list));
         let list = self.film.as_ref().zip(list).map(|(film, list)| film.adaptive.list(list));
         self.tally.stop(recording, frame, done, &self.counters, list);
+    }
+
+    /// Writes the opening's shape, if it has changed.
+    pub(super) fn record_opening(&mut self, recording: &mut Recording<'_>, estimator: &Estimator) {
+        let shape = ApertureBuffer::new(estimator);
+        if self.opening_shape != Some(shape) {
+            self.opening.record(recording, &shape);
+            self.opening_shape = Some(shape);
+        }
     }
 
     fn nothing_to_show(&self) -> bool {

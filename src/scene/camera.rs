@@ -81,8 +81,8 @@ impl Camera {
 
 impl Frame {
     /// The depth of a point along the optical axis, in front of the eye.
-    pub fn axial_depth(&self, eye: Vec3, point: Vec3) -> f64 {
-        -self.w().dot((point - eye).as_dvec3())
+    pub fn axial_depth(&self, eye: Vec3, point: DVec3) -> f64 {
+        -self.w().dot(point - eye.as_dvec3())
     }
 
     /// Right.

@@ -110,7 +110,7 @@ fn camera(center: DVec3, half: DVec3) -> Camera {
 fn lens_for(scene: &Scene) -> Lens {
     let frame = scene.camera.frame();
     let vertices = scene.triangles.iter().flat_map(|triangle| triangle.shape.vertices);
-    let depths = vertices.map(|vertex| frame.axial_depth(scene.camera.eye, vertex));
+    let depths = vertices.map(|vertex| frame.axial_depth(scene.camera.eye, vertex.as_dvec3()));
     let (near, far) =
         depths.fold((f64::INFINITY, 0.0), |(near, far): (f64, f64), depth| (near.min(depth), far.max(depth)));
     // The circle of confusion D (far - near) / (far near) k, and k = height / 2 / tan(vfov / 2).
