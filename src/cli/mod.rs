@@ -96,6 +96,9 @@ pub struct RenderArgs {
     mut_arg("size", |size| size.help("Picture size in pixels [default: 128x96]")),
     mut_arg("noise_threshold", |threshold| threshold.hide(true)),
     mut_arg("overlay", |overlay| overlay.hide(true)),
+    mut_arg("tolerance", |tolerance| tolerance.hide(true)),
+    mut_arg("iso", |iso| iso.hide(true)),
+    mut_arg("unlock_exposure", |unlock| unlock.hide(true)),
     mut_arg("exposure", |exposure| exposure.hide(true))
 )]
 pub struct VerifyArgs {

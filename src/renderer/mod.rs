@@ -255,6 +255,7 @@ impl Renderer {
             if let Some(loaded) = &mut self.scene {
                 loaded.pick = None;
             }
+            self.questions = pick::none_asked();
         }
         let aperture = aperture_constant(estimator);
         if let Some(loaded) = self.scene.as_mut().filter(|loaded| loaded.aperture != aperture) {
@@ -264,6 +265,8 @@ impl Renderer {
             loaded.trace =
                 Trace::new(&self.device, shader, constants, aperture, &loaded.buffers, &self.tile)?;
             (loaded.aperture, loaded.pick) = (aperture, None);
+            // What the last pick was asked, another one cannot answer.
+            self.questions = pick::none_asked();
         }
         Ok(())
     }
@@ -271,6 +274,7 @@ impl Renderer {
     fn load_scene(&mut self, estimator: &Estimator, constants: [u32; 2]) -> Result<()> {
         self.device.wait_idle()?;
         (self.scene, self.trace_bindings) = (None, None);
+        self.questions = pick::none_asked();
         let (scene, shutter, aperture) =
             (estimator.scene.clone(), estimator.shutter, aperture_constant(estimator));
         let data = SceneData::new(&scene, shutter);
