@@ -124,6 +124,7 @@ fn the_lens_is_chosen_by_name_and_by_f_number() {
     let viewer = Viewer::start(SIZE, &["-n", "2"]);
     viewer.wait_until_done();
     let diameter = (estimator.camera.film_distance() / 8.0) as f32;
+    viewer.click("Lens", |viewer| viewer.controls.borrow().contains_key("f/8"));
     viewer.click("f/8", |viewer| viewer.state.borrow()[0] == diameter);
     viewer.wait_until_done();
     viewer.expect_picture("f/8", 0, &["-n", "2", "--f-number", "8"]);

@@ -113,7 +113,7 @@ impl Panel {
                 }
                 note_item(ui, "Reset", &mut layout);
                 tooltip(ui, "Back to the settings that the scene was opened with.");
-                section(ui, "Lens", true, &mut layout, |layout| self.opening(ui, layout));
+                section(ui, "Lens", false, &mut layout, |layout| self.opening(ui, layout));
                 if self.settings.estimator.model != CameraModel::Pinhole {
                     section(ui, "Aperture shape", false, &mut layout, |layout| self.shape(ui, layout));
                 }
