@@ -62,8 +62,6 @@ fn points(gpu: &Gpu, estimator: &Estimator, places: &[Place]) -> Result<Vec<[f64
     let mut bindings = vec![(0, Binding::Buffer(input)), (1, Binding::Buffer(Arc::clone(&output)))];
     bindings.extend(opening.bindings());
     bindings.push(BlueNoiseTile::new(device)?.binding());
-    let wanted = gpu.shader("aperture").interface().resources;
-    bindings.retain(|(place, _)| wanted.contains_key(place));
     let bindings = BindingSet::new(&pipeline, &bindings)?;
     probe::run(gpu, &pipeline, &bindings, &[], [u32::try_from(places.len())?, 1]);
     let points: Vec<Point> = bytemuck::allocation::pod_collect_to_vec(&output.bytes()[..bytes]);

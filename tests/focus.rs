@@ -5,7 +5,7 @@ mod common;
 use anyhow::{Result, ensure};
 use common::scenes::EVERYTHING;
 use common::{Gpu, prove, run, settings_of, small};
-use thinlens::reference::{Reference, intersect};
+use thinlens::reference::Reference;
 use thinlens::renderer::Question;
 use thinlens::scene::{CameraModel, Hole};
 use thinlens::settings::Settings;
@@ -21,10 +21,7 @@ fn depth(settings: &Settings, [x, y]: [f32; 2]) -> Option<f64> {
     let estimator = &settings.estimator;
     let pixel = [x as u32, y as u32];
     let offset = [f64::from(x) - f64::from(pixel[0]) - 0.5, f64::from(y) - f64::from(pixel[1]) - 0.5];
-    let ray = Reference::new(estimator).trace(pixel, offset, [0.0; 2], 0.0).ray;
-    let hit = intersect::intersect(&estimator.scene, ray, 0.0)?;
-    let axis = (estimator.camera.look_at - estimator.camera.eye).as_dvec3().normalize();
-    Some(hit.distance * ray.direction.dot(axis))
+    common::seen(estimator, pixel, offset).map(|(depth, _)| depth)
 }
 
 /// Catches a pick beside the pointer, through another point of the lens than its centre, of the farthest

@@ -5,7 +5,7 @@ mod common;
 use anyhow::{Result, ensure};
 use common::scenes::EVERYTHING;
 use common::{Gpu, circle_of_confusion, pixels, prove, settings_of, small};
-use thinlens::reference::{Reference, intersect, tone};
+use thinlens::reference::{Reference, tone};
 use thinlens::renderer::Renderer;
 use thinlens::scene::{CameraModel, Hole};
 use thinlens::settings::{Overlay, Settings};
@@ -13,13 +13,7 @@ use thinlens::settings::{Overlay, Settings};
 /// The oracle's depth of each pixel's middle.
 fn depths(settings: &Settings) -> Vec<f64> {
     let estimator = &settings.estimator;
-    let axis = (estimator.camera.look_at - estimator.camera.eye).as_dvec3().normalize();
-    let reference = Reference::new(estimator);
-    let depth = |pixel| {
-        let ray = reference.trace(pixel, [0.0; 2], [0.0; 2], 0.0).ray;
-        let hit = intersect::intersect(&estimator.scene, ray, 0.0);
-        hit.map_or(f64::INFINITY, |hit| hit.distance * ray.direction.dot(axis))
-    };
+    let depth = |pixel| common::seen(estimator, pixel, [0.0; 2]).map_or(f64::INFINITY, |(depth, _)| depth);
     pixels(estimator.size).map(depth).collect()
 }
 

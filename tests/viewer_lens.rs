@@ -2,10 +2,9 @@
 
 mod common;
 
-use common::circle_of_confusion;
 use common::viewer::Viewer;
+use common::{circle_of_confusion, seen};
 use std::time::Duration;
-use thinlens::reference::{Reference, intersect};
 use thinlens::scene::{self, SceneRef};
 use thinlens::settings::{Estimator, Settings};
 
@@ -19,15 +18,6 @@ fn shown() -> Estimator {
     estimator
 }
 
-/// The oracle's depth of what the middle of a pixel shows, and the name of its material.
-fn under(estimator: &Estimator, pixel: [u32; 2]) -> (f64, String) {
-    let ray = Reference::new(estimator).trace(pixel, [0.0; 2], [0.0; 2], 0.0).ray;
-    let hit = intersect::intersect(&estimator.scene, ray, 0.0).expect("a surface");
-    let axis = (estimator.camera.look_at - estimator.camera.eye).as_dvec3().normalize();
-    let name = estimator.scene.material_names[hit.material as usize].clone();
-    (hit.distance * ray.direction.dot(axis), name)
-}
-
 /// Waits until nothing moves any more.
 fn rest(viewer: &Viewer) {
     while viewer.listen(Duration::from_millis(500)).is_some() {}
@@ -36,11 +26,7 @@ fn rest(viewer: &Viewer) {
 /// Where a material is seen in the right half of the picture, two pixels from anything else.
 fn find(estimator: &Estimator, material: &str) -> [u32; 2] {
     let [width, height] = estimator.size;
-    let is = |pixel: [u32; 2]| {
-        let ray = Reference::new(estimator).trace(pixel, [0.0; 2], [0.0; 2], 0.0).ray;
-        intersect::intersect(&estimator.scene, ray, 0.0)
-            .is_some_and(|hit| estimator.scene.material_names[hit.material as usize] == material)
-    };
+    let is = |pixel| seen(estimator, pixel, [0.0; 2]).is_some_and(|(_, name)| name == material);
     let mut places = (0..height).step_by(4).flat_map(|y| (width / 2..width).step_by(4).map(move |x| [x, y]));
     places
         .find(|[x, y]| [[x - 8, *y], [x + 8, *y], [*x, y - 8], [*x, y + 8]].into_iter().all(is))
@@ -69,7 +55,7 @@ fn what_is_pointed_at_comes_into_focus() {
 
     for (material, act) in [("cream", "click 3"), ("terracotta", "key f")] {
         let pixel = find(&estimator, material);
-        let (depth, _) = under(&estimator, pixel);
+        let (depth, _) = seen(&estimator, pixel, [0.0; 2]).expect("a surface");
         assert!(blur(&viewer, depth) > 4.0, "{material} is in focus already");
         viewer.until(
             "pointing",
@@ -103,7 +89,7 @@ fn what_is_pointed_at_comes_into_focus() {
         },
     );
 
-    let (depth, _) = under(&estimator, [400, 450]);
+    let (depth, _) = seen(&estimator, [400, 450], [0.0; 2]).expect("a surface");
     viewer.click("Autofocus", |viewer| blur(viewer, depth) < 0.5);
 
     // The background is nothing to focus on.

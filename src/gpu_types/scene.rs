@@ -24,7 +24,7 @@ pub struct SceneData {
     pub lights: Vec<Light>,
     pub shadow_lights: usize,
     pub environment: Environment,
-    /// Of the shapes in the lists but planes, in their order: scene units a second.
+    /// Of the shapes in the lists but planes, in their order, if any moves: scene units a second.
     pub velocities: Vec<[f32; 4]>,
     /// Whether any shape moves.
     pub moves: bool,
@@ -69,12 +69,16 @@ impl SceneData {
             .chain(boxes.iter().map(|shaded| shaded.material))
             .chain(triangles.iter().map(|shaded| shaded.material))
             .chain(scene.planes.iter().map(|shaded| shaded.material));
+        let moves = scene.moves();
         let velocities = (spheres.iter().map(|shaded| shaded.velocity))
             .chain(boxes.iter().map(|shaded| shaded.velocity))
             .chain(triangles.iter().map(|shaded| shaded.velocity));
         Self {
-            velocities: velocities.map(|velocity| velocity.extend(0.0).to_array()).collect(),
-            moves: scene.moves(),
+            velocities: velocities
+                .filter(|_| moves)
+                .map(|velocity| velocity.extend(0.0).to_array())
+                .collect(),
+            moves,
             spheres: spheres.iter().map(|shaded| sphere(&shaded.shape)).collect(),
             boxes: boxes.iter().map(|shaded| aabb(&shaded.shape)).collect(),
             triangles: triangles.iter().map(|shaded| triangle(&shaded.shape)).collect(),

@@ -38,8 +38,7 @@ impl Pick {
         opening: &Opening,
         tile: &BlueNoiseTile,
     ) -> Result<Self> {
-        let constants = [scene.constants(estimator), vec![aperture]].concat();
-        let pipeline = ComputePipeline::new(device, shader, &constants)?;
+        let pipeline = ComputePipeline::new(device, shader, &scene.constants_through(estimator, aperture))?;
         let most_rays = 1 + 2 * Self::MOST_FAN + Self::MOST_SAMPLES;
         let frame = || {
             let size = u64::from(most_rays) * size_of::<PickedRay>() as u64;

@@ -143,6 +143,13 @@ impl SceneBuffers {
             .chain([self.moves.into()])
             .collect()
     }
+
+    /// Likewise, and that of `shaders/include/aperture.glsl`.
+    pub fn constants_through(&self, estimator: [u32; 2], aperture: u32) -> Vec<u32> {
+        let mut constants = self.constants(estimator);
+        constants.push(aperture);
+        constants
+    }
 }
 
 impl Trace {
@@ -162,8 +169,7 @@ impl Trace {
         scene: &SceneBuffers,
         tile: &BlueNoiseTile,
     ) -> Result<Self> {
-        let constants = [scene.constants(estimator), vec![aperture]].concat();
-        let pipeline = ComputePipeline::new(device, shader, &constants)?;
+        let pipeline = ComputePipeline::new(device, shader, &scene.constants_through(estimator, aperture))?;
         Ok(Self { pipeline, tile: tile.clone() })
     }
 

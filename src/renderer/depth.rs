@@ -39,11 +39,7 @@ impl Renderer {
         let (Some(film), Some(loaded), Some(passes)) = (&mut self.film, &mut self.scene, &self.passes) else {
             return Ok(());
         };
-        if film.depth.extent() != film.film.extent() {
-            self.device.wait_idle()?;
-            film.fit_depth(&self.device, &self.resolve)?;
-            self.seen = None;
-        }
+        film.fit_depth(&self.device, &self.resolve)?;
         if !loaded.geometry.as_ref().is_some_and(|geometry| geometry.writes(&film.depth)) {
             self.device.wait_idle()?;
             let shader = self.shaders.geometry;

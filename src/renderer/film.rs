@@ -68,17 +68,18 @@ impl Film {
         })
     }
 
-    /// Makes room for the depth of every pixel. Whether there was none.
-    pub(super) fn fit_depth(&mut self, device: &Arc<Device>, resolve: &Resolve) -> Result<bool> {
+    /// Makes room for the depth of every pixel, if there is none yet.
+    pub(super) fn fit_depth(&mut self, device: &Arc<Device>, resolve: &Resolve) -> Result<()> {
         let size = self.film.extent();
         if self.depth.extent() == size {
-            return Ok(false);
+            return Ok(());
         }
+        device.wait_idle()?;
         self.depth = Arc::new(Image::r32f(device, "depth", size)?);
         self.resolve = resolve.bind(&self.film, &self.picture, &self.depth, &self.adaptive)?;
         self.resolve_preview = resolve.bind(&self.batch, &self.picture, &self.depth, &self.adaptive)?;
         self.has_layout = false;
-        Ok(true)
+        Ok(())
     }
 
     /// Gives the depth image its layout, if it has none yet.

@@ -11,9 +11,10 @@ use std::process::{Command, Output};
 use std::sync::Arc;
 use thinlens::error::Error;
 use thinlens::passes::Shaders;
+use thinlens::reference::{Reference, intersect};
 use thinlens::renderer::Renderer;
 use thinlens::scene::{self, Scene, SceneRef};
-use thinlens::settings::Settings;
+use thinlens::settings::{Estimator, Settings};
 use thinlens::vulkan::{Device, Instance, Shader};
 
 /// Every shader, as it is and with each fault of `tests/faults.txt` that lies in its source: its
@@ -159,6 +160,15 @@ pub fn pixels([width, height]: [u32; 2]) -> impl Iterator<Item = [u32; 2]> {
 /// the lens through the point is D |z - F| / z wide in the focal plane, of which a pixel is F / k.
 pub fn circle_of_confusion(diameter: f64, focal_distance: f64, z: f64, k: f64) -> f64 {
     diameter * (z - focal_distance).abs() / (z * focal_distance) * k
+}
+
+/// What the oracle sees through the lens centre, so far from a pixel's centre: the depth along the axis, and the
+/// name of the material.
+pub fn seen(estimator: &Estimator, pixel: [u32; 2], offset: [f64; 2]) -> Option<(f64, &str)> {
+    let ray = Reference::new(estimator).trace(pixel, offset, [0.0; 2], 0.0).ray;
+    let hit = intersect::intersect(&estimator.scene, ray, 0.0)?;
+    let axis = (estimator.camera.look_at - estimator.camera.eye).as_dvec3().normalize();
+    Some((hit.distance * ray.direction.dot(axis), &estimator.scene.material_names[hit.material as usize]))
 }
 
 /// Films of the same settings with the seeds `0 .. count`: r, g, b of each pixel.

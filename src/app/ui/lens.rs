@@ -73,10 +73,7 @@ impl Panel {
             "How wide the lens is, in scene units. 0 is a pinhole: everything is sharp.",
             layout,
             |id| {
-                ui.slider_config(id, 0.0, widest)
-                    .display_format("%.4g")
-                    .flags(SliderFlags::ALWAYS_CLAMP | SliderFlags::NO_ROUND_TO_FORMAT)
-                    .build(&mut estimator.lens.diameter);
+                diameter_slider(ui, id, widest, &mut estimator.lens.diameter);
             },
         );
         named(
@@ -102,16 +99,20 @@ impl Panel {
             "How wide the hole is, in scene units. The picture of a far point is as wide.",
             layout,
             |id| {
-                ui.slider_config(id, 0.0, widest)
-                    .display_format("%.4g")
-                    .flags(SliderFlags::ALWAYS_CLAMP | SliderFlags::NO_ROUND_TO_FORMAT)
-                    .build(&mut hole.diameter);
+                diameter_slider(ui, id, widest, &mut hole.diameter);
             },
         );
         ui.checkbox("Upright", &mut hole.upright);
         note_item(ui, "Upright", layout);
         tooltip(ui, "On the film the picture is upside down. This turns it, as you turn a slide.");
     }
+}
+
+fn diameter_slider(ui: &Ui, id: String, widest: f32, diameter: &mut f32) {
+    ui.slider_config(id, 0.0, widest)
+        .display_format("%.4g")
+        .flags(SliderFlags::ALWAYS_CLAMP | SliderFlags::NO_ROUND_TO_FORMAT)
+        .build(diameter);
 }
 
 fn choose_model(ui: &Ui, estimator: &mut Estimator, layout: &mut Layout) {
