@@ -6,7 +6,7 @@ use common::viewer::Viewer;
 use common::{circle_of_confusion, seen};
 use std::time::Duration;
 use thinlens::scene::{self, SceneRef};
-use thinlens::settings::{Estimator, Settings};
+use thinlens::settings::{Estimator, PRESETS, Settings};
 
 const SIZE: [u16; 2] = [800, 900];
 
@@ -115,10 +115,12 @@ fn the_lens_is_chosen_by_name_and_by_f_number() {
     viewer.wait_until_done();
     viewer.expect_picture("f/8", 0, &["-n", "2", "--f-number", "8"]);
 
-    let choose = |combo: &str, choice: &str, view: &str| {
+    let choose_lens = |combo: &str, choice: &str, view: &str, diameter: Option<f32>| {
         viewer.until(
             choice,
-            |viewer| *viewer.view.borrow() == view,
+            |viewer| {
+                *viewer.view.borrow() == view && diameter.is_none_or(|is| viewer.state.borrow()[0] == is)
+            },
             || {
                 viewer.controls.borrow_mut().remove(choice);
                 viewer.click(combo, |viewer| viewer.controls.borrow().contains_key(choice));
@@ -126,7 +128,13 @@ fn the_lens_is_chosen_by_name_and_by_f_number() {
             },
         );
     };
-    choose("Known lenses", "50 mm f/1.4", "ThinLens 26.991 0 0");
+    let choose = |combo: &str, choice: &str, view: &str| choose_lens(combo, choice, view, None);
+    // The other 50 mm lenses have the same view.
+    let preset = PRESETS.iter().find(|preset| preset.name == "50mm-f1.4").expect("a preset");
+    let mut with_preset = estimator.clone();
+    preset.apply(&mut with_preset);
+    let diameter = Some(with_preset.lens.diameter);
+    choose_lens("Known lenses", "50 mm f/1.4", "ThinLens 26.991 0 0", diameter);
     viewer.expect_picture("a 50 mm lens", 0, &["-n", "2", "--preset", "50mm-f1.4"]);
     viewer.click("Aperture shape", |viewer| viewer.controls.borrow().contains_key("Aperture"));
     choose("Aperture", "Iris of blades", "ThinLens 26.991 6 0");

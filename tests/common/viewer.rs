@@ -203,9 +203,15 @@ impl Viewer {
     }
 
     pub fn click_once(&self, control: &str) {
-        let [x, y, _, height] = self.controls.borrow()[control];
-        self.xdotool(&format!("mousemove {} {}", x + height / 2, y + height / 2));
-        self.frames(3);
+        // What has just unfolded may not have come to rest yet.
+        loop {
+            let place @ [x, y, _, height] = self.controls.borrow()[control];
+            self.xdotool(&format!("mousemove {} {}", x + height / 2, y + height / 2));
+            self.frames(3);
+            if self.controls.borrow()[control] == place {
+                break;
+            }
+        }
         self.xdotool("mousedown 1");
         self.frames(3);
         self.xdotool("mouseup 1");
