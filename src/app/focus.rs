@@ -1,7 +1,10 @@
-//! Focusing by the pointer: what lies under it, and the focal plane on its way there.
+//! What the device is asked about: the pixel under the pointer, the one that the optics are drawn of, and the
+//! one to focus on; and the focal plane on its way there.
 
-use crate::renderer::Picked;
+use super::diagram::Diagram;
+use crate::renderer::{Picked, Question};
 use crate::scene::{Lens, MAX_LENGTH, MIN_LENGTH};
+use crate::settings::Estimator;
 use imgui::{Key, MouseButton, Ui};
 use std::time::{Duration, Instant};
 
@@ -11,6 +14,8 @@ const GLIDE: Duration = Duration::from_millis(300);
 const MARK: Duration = Duration::from_millis(1200);
 /// What a notch of the wheel does to the focal distance.
 const NUDGE: f32 = 1.02;
+/// A click that moves no farther, in points, is no drag.
+const STILL: f32 = 3.0;
 /// Points across the mark.
 const MARK_RADIUS: f32 = 13.0;
 
@@ -21,12 +26,30 @@ pub(super) struct Focus {
     pointer: Option<[f32; 2]>,
     /// What is to be brought into focus.
     wanted: Option<[f32; 2]>,
-    /// The last question, while there is no answer.
-    asked: Option<[f32; 2]>,
-    /// The last answer.
-    under_pointer: Option<Picked>,
+    /// The pixel whose optics are drawn, as a share of the picture's size; none is the middle.
+    pinned: Option<[f32; 2]>,
+    /// Where the left button went down, while it is.
+    pressed: Option<[f32; 2]>,
+    /// The last question and what it is about, while there is no answer.
+    asked: Option<(Question, Estimator)>,
+    /// The last answers.
+    under_pointer: Option<Answer<Picked>>,
+    diagram: Option<Answer<Diagram>>,
     glide: Option<Glide>,
     mark: Option<Mark>,
+}
+
+/// What is known, and of what.
+struct Answer<T> {
+    known: T,
+    question: Question,
+    estimator: Estimator,
+}
+
+impl<T> Answer<T> {
+    fn answers(&self, question: &Question, estimator: &Estimator) -> bool {
+        self.question == *question && self.estimator == *estimator
+    }
 }
 
 struct Glide {
@@ -43,15 +66,25 @@ struct Mark {
 
 impl Focus {
     /// Takes in what mouse and keys did over the picture.
-    pub(super) fn take_input(&mut self, ui: &Ui, lens: &mut Lens) {
+    pub(super) fn take_input(&mut self, ui: &Ui, lens: &mut Lens, size: [u32; 2]) {
         let io = ui.io();
         let over_picture = !io.want_capture_mouse && ui.is_mouse_pos_valid(io.mouse_pos);
         let scale = io.display_framebuffer_scale;
         // The pointer names a pixel, and the middle of it is what is asked for.
         self.pointer =
             over_picture.then(|| [0, 1].map(|axis| (io.mouse_pos[axis] * scale[axis]).floor() + 0.5));
-        if self.pointer.is_none() {
+        let Some(pointer) = self.pointer else {
+            self.pressed = None;
             return;
+        };
+        if ui.is_mouse_clicked(MouseButton::Left) {
+            self.pressed = Some(pointer);
+        }
+        if ui.is_mouse_released(MouseButton::Left)
+            && let Some(pressed) = self.pressed.take()
+            && (pressed[0] - pointer[0]).hypot(pressed[1] - pointer[1]) <= STILL * scale[0]
+        {
+            self.pinned = Some([0, 1].map(|axis| pointer[axis] / size[axis] as f32));
         }
         if ui.is_mouse_clicked(MouseButton::Right) || (ui.is_key_pressed(Key::F) && !io.want_text_input) {
             self.wanted = self.pointer;
@@ -68,23 +101,42 @@ impl Focus {
         self.wanted = Some(position);
     }
 
-    /// The place to ask the device about now, if any. `again`: what it said may not hold any more.
-    pub(super) fn question(&mut self, again: bool) -> Option<[f32; 2]> {
+    /// What to ask the device of this picture now, if anything. `rays`: how many are drawn of the pinned
+    /// pixel's optics.
+    pub(super) fn question(&mut self, estimator: &Estimator, rays: Option<u32>) -> Option<Question> {
         if self.asked.is_some() {
             return None;
         }
-        let known = self.under_pointer.as_ref().map(|picked| picked.question.position);
-        let pointer = self.pointer.filter(|pointer| again || known != Some(*pointer));
-        self.asked = self.wanted.or(pointer);
-        self.asked
+        let pinned = rays.map(|rays| {
+            let share = self.pinned.unwrap_or([0.5; 2]);
+            let at = |axis: usize| (share[axis] * estimator.size[axis] as f32).floor() + 0.5;
+            Question { position: [at(0), at(1)], fan: rays, samples: rays }
+        });
+        let pinned = pinned.filter(|question| {
+            self.diagram.as_ref().is_none_or(|answer| !answer.answers(question, estimator))
+        });
+        let pointer = self.pointer.map(Question::at).filter(|question| {
+            self.under_pointer.as_ref().is_none_or(|answer| !answer.answers(question, estimator))
+        });
+        let question = self.wanted.map(Question::at).or(pinned).or(pointer)?;
+        self.asked = Some((question, estimator.clone()));
+        Some(question)
     }
 
     /// What the device says. None: it could not tell.
     pub(super) fn answer(&mut self, picked: Option<Picked>, lens: &Lens) {
-        let asked = self.asked.take();
-        let Some(picked) = picked else {
+        let (Some((question, estimator)), Some(picked)) = (self.asked.take(), picked) else {
             return;
         };
+        if question.samples > 0 {
+            let known = Diagram::new(&estimator, &picked);
+            if let Some((_, p)) = known.focus {
+                log::trace!("diagram of {:?}: p at {p}", question.position);
+            }
+            self.diagram = Some(Answer { known, question, estimator });
+            return;
+        }
+        let asked = Some(question.position);
         if self.wanted.is_some() && asked == self.wanted {
             self.wanted = None;
             let found = picked.surface.as_ref().map(|surface| surface.depth as f32);
@@ -96,7 +148,7 @@ impl Focus {
                 log::debug!("focusing at {to}");
             }
         }
-        self.under_pointer = Some(picked);
+        self.under_pointer = Some(Answer { known: picked, question, estimator });
     }
 
     /// Moves the focal plane on.
@@ -147,6 +199,22 @@ impl Focus {
 
     /// What lies under the pointer, while it is over the picture.
     pub(super) fn under_pointer(&self) -> Option<&Picked> {
-        self.under_pointer.as_ref().filter(|_| self.pointer.is_some())
+        let answer = self.under_pointer.as_ref().filter(|_| self.pointer.is_some());
+        answer.map(|answer| &answer.known)
+    }
+
+    /// The optics of the pinned pixel.
+    pub(super) fn diagram(&self) -> Option<&Diagram> {
+        self.diagram.as_ref().map(|answer| &answer.known)
+    }
+
+    /// Marks the pinned pixel.
+    pub(super) fn draw_pin(&self, ui: &Ui) {
+        let ([width, height], [x, y]) = (ui.io().display_size, self.pinned.unwrap_or([0.5; 2]));
+        let centre = [x * width, y * height];
+        let list = ui.get_background_draw_list();
+        for (radius, color) in [(5.0, [0.0, 0.0, 0.0, 0.6]), (4.0, [1.0, 1.0, 1.0, 0.9])] {
+            list.add_circle(centre, radius, color).thickness(1.5).build();
+        }
     }
 }

@@ -132,13 +132,13 @@ impl Graphics {
     }
 
     /// Traces for as long as `pace` says, and shows the picture on `image` with imgui on top.
-    /// [`Self::wait_for_frame`] comes first. `question`: a place of the picture to ask about.
+    /// [`Self::wait_for_frame`] comes first. `question`: of a place of the picture.
     pub(super) fn draw(
         &mut self,
         image: &AcquiredImage,
         imgui: &mut imgui::Context,
         pace: Pace,
-        question: Option<[f32; 2]>,
+        question: Option<Question>,
     ) -> Result<()> {
         let panel = imgui.render();
         let Some(swapchain) = &mut self.swapchain else {
@@ -151,8 +151,8 @@ impl Graphics {
             self.renderer.record(&mut recording, frame, pace);
         }
         self.renderer.record_resolve(&mut recording);
-        if let Some(position) = question {
-            self.renderer.record_pick(&mut recording, frame, Question::at(position))?;
+        if let Some(question) = question {
+            self.renderer.record_pick(&mut recording, frame, question)?;
             self.asked[frame] = true;
         }
 

@@ -1,5 +1,6 @@
 //! The viewer: a window that shows the film as it fills, and a panel that changes what is rendered.
 
+pub mod diagram;
 mod focus;
 mod graphics;
 mod ui;

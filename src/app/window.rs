@@ -153,7 +153,8 @@ impl Open {
         let mut imgui = imgui::Context::create();
         imgui.set_ini_filename(None);
         imgui.io_mut().config_windows_move_from_title_bar_only = true;
-        imgui.io_mut().config_flags |= imgui::ConfigFlags::NAV_ENABLE_KEYBOARD;
+        imgui.io_mut().config_flags |=
+            imgui::ConfigFlags::NAV_ENABLE_KEYBOARD | imgui::ConfigFlags::DOCKING_ENABLE;
         let mut platform = WinitPlatform::new(&mut imgui);
         platform.attach_window(imgui.io_mut(), &window, HiDpiMode::Default);
         let mut open = Self {
@@ -232,19 +233,24 @@ impl Open {
             log::warn!("pointer: {error}");
         }
         let ui = self.imgui.new_frame();
+        ui.dockspace_over_main_viewport();
         let status = Status {
             progress: self.graphics.progress(),
             device: self.graphics.device_name(),
             picked: self.focus.under_pointer(),
+            diagram: self.focus.diagram(),
         };
         let action = self.panel.draw(ui, &status);
         if let Some(Action::Autofocus) = action {
             self.focus.send_to(size.map(|extent| 0.5 * extent as f32));
         }
         let lens = &mut self.panel.settings.estimator.lens;
-        self.focus.take_input(ui, lens);
+        self.focus.take_input(ui, lens, size);
         self.focus.advance(lens);
         self.focus.draw(ui);
+        if self.panel.optics.open {
+            self.focus.draw_pin(ui);
+        }
         self.dragging = ui.is_any_item_active() || self.focus.is_gliding();
         if ui.io().want_text_input {
             self.frames_to_draw = self.frames_to_draw.max(1); // the caret blinks
@@ -257,11 +263,13 @@ impl Open {
             self.panel.refuse(&error);
             self.graphics.set(&self.panel.settings)?;
         }
-        let restarted = self.panel.accept();
+        self.panel.accept();
         let finished_before = self.graphics.finished();
         let pace =
             Pace { budget: if self.dragging { DRAGGING_BUDGET } else { RESTING_BUDGET }, preview: true };
-        let question = self.focus.question(restarted);
+        let optics = self.panel.optics;
+        let question =
+            self.focus.question(&self.panel.settings.estimator, optics.open.then_some(optics.rays));
         self.graphics.draw(&image, &mut self.imgui, pace, question)?;
         if self.focus.is_busy() {
             self.frames_to_draw = self.frames_to_draw.max(1);

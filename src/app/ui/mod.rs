@@ -3,14 +3,17 @@
 mod aperture;
 mod lens;
 mod numbers;
+mod optics;
 mod overlay;
 mod widgets;
 
+use super::diagram::Diagram;
 use crate::error::Error;
 use crate::renderer::{Picked, Progress};
 use crate::scene::{self, ApertureImage, BUILTINS, CameraModel, SceneRef};
 use crate::settings::{DEFAULT_JITTER, Settings, View};
 use imgui::{Condition, SliderFlags, Ui};
+use optics::Optics;
 use widgets::{Layout, named, note_item, section, tooltip};
 
 /// The points slider goes this far, or as far as was asked for.
@@ -44,6 +47,7 @@ pub(super) struct Panel {
     /// The choices: the built-ins, and the file that the viewer was opened with.
     scenes: Vec<String>,
     message: Option<String>,
+    pub(super) optics: Optics,
     /// Where the controls were drawn, to tell when they moved.
     layout: Layout,
 }
@@ -54,6 +58,8 @@ pub(super) struct Status<'a> {
     pub(super) device: &'a str,
     /// What lies under the pointer, while it is over the picture.
     pub(super) picked: Option<&'a Picked>,
+    /// The optics of the pixel that was clicked last.
+    pub(super) diagram: Option<&'a Diagram>,
 }
 
 /// What a button asks for beyond the settings.
@@ -78,6 +84,7 @@ impl Panel {
             scene,
             scenes,
             message: None,
+            optics: Optics::default(),
             layout: Vec::new(),
         }
     }
@@ -113,6 +120,13 @@ impl Panel {
                 }
                 note_item(ui, "Reset", &mut layout);
                 tooltip(ui, "Back to the settings that the scene was opened with.");
+                ui.same_line();
+                ui.checkbox("Optics", &mut self.optics.open);
+                note_item(ui, "Optics", &mut layout);
+                tooltip(
+                    ui,
+                    "Draws what the lens does with the light of one pixel, to scale. Click the picture to choose the pixel.",
+                );
                 section(ui, "Lens", false, &mut layout, |layout| self.opening(ui, layout));
                 if self.settings.estimator.model != CameraModel::Pinhole {
                     section(ui, "Aperture shape", false, &mut layout, |layout| self.shape(ui, layout));
@@ -123,6 +137,7 @@ impl Panel {
                 section(ui, "View", false, &mut layout, |layout| self.view(ui, layout));
                 section(ui, "Device", false, &mut layout, |_| device(ui, status));
             });
+        self.optics.draw(ui, status.diagram, &mut layout);
         overlay::legend(ui, &self.settings);
         if layout != self.layout {
             for (name, [x, y, width, height]) in &layout {
@@ -133,13 +148,11 @@ impl Panel {
         action
     }
 
-    /// The renderer took the settings. Says whether the picture is another one now.
-    pub(super) fn accept(&mut self) -> bool {
-        let changed = self.accepted.0.estimator != self.settings.estimator;
+    /// The renderer took the settings.
+    pub(super) fn accept(&mut self) {
         if self.accepted.0 != self.settings {
             self.accepted = (self.settings.clone(), self.scene.clone());
         }
-        changed
     }
 
     /// The renderer did not: back to what it took last, and say why.

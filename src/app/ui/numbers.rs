@@ -40,7 +40,7 @@ impl Panel {
 }
 
 /// Four digits, and a sign for what has no end.
-fn length(value: f64) -> String {
+pub(super) fn length(value: f64) -> String {
     if value.is_infinite() {
         return "infinity".into();
     }

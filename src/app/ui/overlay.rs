@@ -70,7 +70,12 @@ pub(super) fn legend(ui: &Ui, settings: &Settings) {
         .position([width - MARGIN, height - MARGIN], Condition::Always)
         .position_pivot([1.0, 1.0])
         .size([WIDTH, 0.0], Condition::Always)
-        .flags(WindowFlags::NO_DECORATION | WindowFlags::NO_INPUTS | WindowFlags::NO_FOCUS_ON_APPEARING)
+        .flags(
+            WindowFlags::NO_DECORATION
+                | WindowFlags::NO_INPUTS
+                | WindowFlags::NO_DOCKING
+                | WindowFlags::NO_FOCUS_ON_APPEARING,
+        )
         .build(|| {
             ui.text(name);
             let (colors, labels) = scale(settings, overlay);
