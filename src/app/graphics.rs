@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 use crate::renderer::{Pace, Picked, Progress, Question, Renderer};
 use crate::settings::Settings;
 use crate::vulkan::{
-    Acquired, AcquiredImage, Commands, Device, FRAMES_IN_FLIGHT, Instance, Surface, Swapchain,
+    Acquired, AcquiredImage, Commands, Device, FRAMES_IN_FLIGHT, Image, Instance, Surface, Swapchain,
 };
 use imgui_rs_vulkan_renderer::{DynamicRendering, Options};
 use std::sync::Arc;
@@ -19,6 +19,8 @@ pub(super) struct Answer(pub(super) Option<Picked>);
 pub(super) struct Graphics {
     overlay: Option<imgui_rs_vulkan_renderer::Renderer>,
     swapchain: Option<Swapchain>,
+    /// A picture to compare with.
+    held: Option<Image>,
     renderer: Renderer,
     frames: [Commands; FRAMES_IN_FLIGHT],
     next_frame: usize,
@@ -37,6 +39,7 @@ impl Graphics {
         Ok(Self {
             overlay: None,
             swapchain: None,
+            held: None,
             renderer: Renderer::new(&device)?,
             frames: [Commands::new(&device)?, Commands::new(&device)?],
             next_frame: 0,
@@ -102,6 +105,26 @@ impl Graphics {
         self.renderer.set(settings)
     }
 
+    /// Holds the picture as it is now, to compare others with. False where there is none.
+    pub(super) fn hold(&mut self) -> Result<bool> {
+        self.device.wait_idle()?;
+        self.held = self.renderer.hold_picture()?;
+        Ok(self.held.is_some())
+    }
+
+    /// Whether a picture is held that is as large as the window.
+    pub(super) fn holds(&self) -> bool {
+        let extent = self.swapchain.as_ref().map(Swapchain::extent);
+        self.held.as_ref().is_some_and(|held| Some(held.extent()) == extent)
+    }
+
+    /// Lets it go.
+    pub(super) fn let_go(&mut self) -> Result<()> {
+        self.device.wait_idle()?;
+        self.held = None;
+        Ok(())
+    }
+
     /// Waits until the next frame's commands are free, and takes in what they measured. With `all`, for
     /// every frame under way: then none stands between what the hand does next and the screen.
     ///
@@ -131,14 +154,15 @@ impl Graphics {
         })
     }
 
-    /// Traces for as long as `pace` says, and shows the picture on `image` with imgui on top.
-    /// [`Self::wait_for_frame`] comes first. `question`: of a place of the picture.
+    /// Traces for as long as `pace` says, if at all, and shows the picture on `image` with imgui on top.
+    /// [`Self::wait_for_frame`] comes first. `split`: up to which column the held picture is shown. `question`: of a place of the picture.
     pub(super) fn draw(
         &mut self,
         image: &AcquiredImage,
         imgui: &mut imgui::Context,
-        pace: Pace,
+        pace: Option<Pace>,
         question: Option<Question>,
+        split: u32,
     ) -> Result<()> {
         let panel = imgui.render();
         let Some(swapchain) = &mut self.swapchain else {
@@ -147,7 +171,7 @@ impl Graphics {
         let frame = self.next_frame;
         self.next_frame = (frame + 1) % FRAMES_IN_FLIGHT;
         let mut recording = self.frames[frame].begin()?;
-        if !self.renderer.finished() {
+        if let Some(pace) = pace.filter(|_| !self.renderer.finished()) {
             self.renderer.record(&mut recording, frame, pace);
         }
         self.renderer.record_resolve(&mut recording);
@@ -157,7 +181,8 @@ impl Graphics {
         }
 
         if let Some(picture) = self.renderer.picture() {
-            swapchain.begin_drawing(&mut recording, image, picture);
+            let left = self.held.as_ref().map(|held| (held, split));
+            swapchain.begin_drawing(&mut recording, image, picture, left);
             if let Some(overlay) = &mut self.overlay {
                 overlay.cmd_draw(recording.raw(), panel).map_err(overlay_error)?;
             }

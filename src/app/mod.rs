@@ -3,6 +3,9 @@
 pub mod diagram;
 mod focus;
 mod graphics;
+mod history;
+mod keys;
+mod navigate;
 mod ui;
 mod window;
 

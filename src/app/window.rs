@@ -3,7 +3,10 @@
 use super::Options;
 use super::focus::Focus;
 use super::graphics::{Answer, Graphics};
-use super::ui::{Action, Panel, Status};
+use super::history::History;
+use super::keys;
+use super::navigate::Navigate;
+use super::ui::{Action, Panel, State, Status};
 use crate::error::{Error, Result};
 use crate::renderer::Pace;
 use crate::vulkan::Instance;
@@ -40,6 +43,8 @@ struct Open {
     imgui: imgui::Context,
     panel: Panel,
     focus: Focus,
+    navigate: Navigate,
+    history: History<State>,
     window: Arc<Window>,
     last_frame: Instant,
     /// When the first event came that no frame has shown yet.
@@ -50,6 +55,8 @@ struct Open {
     shown: (u32, u32),
     /// Lens diameter, focal distance and jitter that were reported last.
     state: [f32; 3],
+    /// Likewise, where the camera stands and what it looks at.
+    camera: [glam::Vec3; 2],
     /// Likewise, camera model, field of view in degrees, blades and cat's eye.
     view: String,
     occluded: bool,
@@ -127,7 +134,7 @@ impl ApplicationHandler for Viewer {
             return;
         };
         // Drawing waits for the display, so asking for the next frame at once does not spin.
-        let busy = open.frames_to_draw > 0 || !open.graphics.finished();
+        let busy = open.frames_to_draw > 0 || !(open.graphics.finished() || open.rests());
         if busy && !open.is_hidden() {
             open.window.request_redraw();
         }
@@ -157,12 +164,15 @@ impl Open {
             imgui::ConfigFlags::NAV_ENABLE_KEYBOARD | imgui::ConfigFlags::DOCKING_ENABLE;
         let mut platform = WinitPlatform::new(&mut imgui);
         platform.attach_window(imgui.io_mut(), &window, HiDpiMode::Default);
+        let panel = Panel::new(options.settings.clone(), options.scene.clone());
         let mut open = Self {
             graphics,
             platform,
             imgui,
-            panel: Panel::new(options.settings.clone(), options.scene.clone()),
+            history: History::new(panel.state()),
+            panel,
             focus: Focus::default(),
+            navigate: Navigate::default(),
             window,
             last_frame: Instant::now(),
             unshown_since: None,
@@ -170,6 +180,7 @@ impl Open {
             dragging: false,
             shown: (0, 0),
             state: [f32::NAN; 3],
+            camera: [glam::Vec3::NAN; 2],
             view: String::new(),
             occluded: false,
         };
@@ -181,6 +192,11 @@ impl Open {
     fn is_hidden(&self) -> bool {
         let size = self.window.inner_size();
         self.occluded || size.width == 0 || size.height == 0 || self.window.is_minimized() == Some(true)
+    }
+
+    /// Whether the picture is to stay as it is, and there is one.
+    fn rests(&self) -> bool {
+        self.panel.paused && self.graphics.progress().samples > 0
     }
 
     fn load_fonts(&mut self) {
@@ -232,6 +248,11 @@ impl Open {
         if let Err(error) = self.platform.prepare_frame(io, &self.window) {
             log::warn!("pointer: {error}");
         }
+        if self.panel.held.is_some() && !self.graphics.holds() {
+            self.panel.held = None;
+            self.graphics.let_go()?;
+            self.panel.say("The held picture is gone: it does not fit the window any more.".into());
+        }
         let ui = self.imgui.new_frame();
         ui.dockspace_over_main_viewport();
         let status = Status {
@@ -240,10 +261,10 @@ impl Open {
             picked: self.focus.under_pointer(),
             diagram: self.focus.diagram(),
         };
-        let action = self.panel.draw(ui, &status);
-        if let Some(Action::Autofocus) = action {
-            self.focus.send_to(size.map(|extent| 0.5 * extent as f32));
-        }
+        let action = self.panel.draw(ui, &status).or_else(|| keys::pressed(ui));
+        keys::help(ui, &mut self.panel.keys);
+        self.history.amend(|state| state.settings.estimator.size = size);
+        self.navigate.take_input(ui, &mut self.panel.settings.estimator.camera);
         let lens = &mut self.panel.settings.estimator.lens;
         self.focus.take_input(ui, lens, size);
         self.focus.advance(lens);
@@ -251,11 +272,14 @@ impl Open {
         if self.panel.optics.open {
             self.focus.draw_pin(ui);
         }
-        self.dragging = ui.is_any_item_active() || self.focus.is_gliding();
+        self.dragging = ui.is_any_item_active() || self.focus.is_gliding() || self.navigate.is_moving();
         if ui.io().want_text_input {
             self.frames_to_draw = self.frames_to_draw.max(1); // the caret blinks
         }
         self.platform.prepare_render(ui, &self.window);
+        if let Some(action) = action {
+            self.act(action)?;
+        }
 
         self.panel.settings.estimator.size = size;
         if let Err(error) = self.graphics.set(&self.panel.settings) {
@@ -264,14 +288,18 @@ impl Open {
             self.graphics.set(&self.panel.settings)?;
         }
         self.panel.accept();
+        if !self.dragging {
+            self.history.record(&self.panel.state());
+        }
         let finished_before = self.graphics.finished();
-        let pace =
-            Pace { budget: if self.dragging { DRAGGING_BUDGET } else { RESTING_BUDGET }, preview: true };
+        let budget = if self.dragging { DRAGGING_BUDGET } else { RESTING_BUDGET };
+        let pace = (!self.rests()).then_some(Pace { budget, preview: true });
         let optics = self.panel.optics;
         let question =
             self.focus.question(&self.panel.settings.estimator, optics.open.then_some(optics.rays));
-        self.graphics.draw(&image, &mut self.imgui, pace, question)?;
-        if self.focus.is_busy() {
+        let split = self.panel.held.as_ref().map_or(0.0, |held| held.share * size[0] as f32);
+        self.graphics.draw(&image, &mut self.imgui, pace, question, split.round() as u32)?;
+        if self.focus.is_busy() || self.navigate.is_moving() {
             self.frames_to_draw = self.frames_to_draw.max(1);
         }
         if !finished_before && self.graphics.finished() {
@@ -285,12 +313,48 @@ impl Open {
         Ok(())
     }
 
+    fn act(&mut self, action: Action) -> Result<()> {
+        match action {
+            Action::Autofocus => {
+                self.focus.send_to(self.panel.settings.estimator.size.map(|extent| 0.5 * extent as f32));
+            }
+            Action::Reset => self.panel.reset(),
+            Action::ResetCamera => self.panel.reset_camera(),
+            Action::Undo => self.history.undo().into_iter().for_each(|state| self.panel.restore(state)),
+            Action::Redo => self.history.redo().into_iter().for_each(|state| self.panel.restore(state)),
+            Action::Compare => self.compare()?,
+            Action::Pause => self.panel.paused ^= true,
+            Action::Optics => self.panel.optics.open ^= true,
+            Action::Keys => self.panel.keys ^= true,
+            Action::SavePicture | Action::CopyCommand => {}
+        }
+        Ok(())
+    }
+
+    /// Holds the picture on the left, or lets it go.
+    fn compare(&mut self) -> Result<()> {
+        if self.panel.held.is_some() {
+            self.panel.held = None;
+            return self.graphics.let_go();
+        }
+        if self.graphics.hold()? {
+            self.panel.hold();
+        }
+        Ok(())
+    }
+
     fn report(&mut self) {
         let estimator = &self.panel.settings.estimator;
         let state = [estimator.lens.diameter, estimator.lens.focal_distance, estimator.jitter];
         if state != self.state {
             log::debug!("lens {} {} jitter {}", state[0], state[1], state[2]);
             self.state = state;
+        }
+        let camera = [estimator.camera.eye, estimator.camera.look_at];
+        if camera != self.camera {
+            let [eye, look_at] = camera;
+            log::debug!("camera {} {} {} {} {} {}", eye.x, eye.y, eye.z, look_at.x, look_at.y, look_at.z);
+            self.camera = camera;
         }
         let (vfov, aperture) = (estimator.camera.vfov_radians.to_degrees(), &estimator.aperture);
         let view = format!("{:?} {vfov:.3} {} {}", estimator.model, aperture.blades, aperture.cats_eye);

@@ -54,6 +54,28 @@ impl Renderer {
         self.read_image(|film| &film.picture, Self::record_resolve)
     }
 
+    /// A copy of the picture as it is now, which outlives it.
+    ///
+    /// # Errors
+    /// [`crate::error::Error::Memory`], or what Vulkan says.
+    pub fn hold_picture(&mut self) -> Result<Option<Image>> {
+        let Some(extent) = self.picture().map(Image::extent) else {
+            return Ok(None);
+        };
+        let held = Image::rgba8(&self.device, "held picture", extent)?;
+        let mut commands = Commands::new(&self.device)?;
+        let mut recording = commands.begin()?;
+        recording.clear(&held);
+        recording.barrier();
+        self.record_resolve(&mut recording);
+        if let Some(picture) = self.picture() {
+            recording.copy_to_image(picture, &held);
+        }
+        recording.submit()?;
+        commands.wait()?;
+        Ok(Some(held))
+    }
+
     /// Reads an image back, once `prepare` is recorded.
     fn read_image(
         &mut self,

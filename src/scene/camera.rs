@@ -68,7 +68,7 @@ impl Camera {
     }
 
     /// Why no frame can be made of it, if so.
-    pub(super) fn fault(&self) -> Option<&'static str> {
+    pub fn fault(&self) -> Option<&'static str> {
         let axis = (self.eye - self.look_at).as_dvec3();
         if axis.length_squared() == 0.0 {
             return Some("eye and look_at are the same point");

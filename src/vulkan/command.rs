@@ -209,6 +209,19 @@ impl Recording<'_> {
         self.barrier();
     }
 
+    /// Copies an image to another one of the same extent and format.
+    pub fn copy_to_image(&mut self, from: &Image, to: &Image) {
+        let [width, height] = from.extent();
+        let region = [vk::ImageCopy::default()
+            .src_subresource(LAYER)
+            .dst_subresource(LAYER)
+            .extent(vk::Extent3D { width, height, depth: 1 })];
+        let general = vk::ImageLayout::GENERAL;
+        // SAFETY: recording is under way, both images are in this layout, and callers give equal ones.
+        unsafe { self.device().raw.cmd_copy_image(self.raw(), from.raw, general, to.raw, general, &region) };
+        self.barrier();
+    }
+
     /// Copies an image's pixels to the start of a buffer, row by row without padding.
     pub fn copy_image(&mut self, from: &Image, to: &Buffer) {
         let [width, height] = from.extent();

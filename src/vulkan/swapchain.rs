@@ -214,9 +214,15 @@ impl Swapchain {
         self.format == vk::Format::B8G8R8A8_UNORM
     }
 
-    /// Copies `picture` to the acquired image and opens it for drawing on top. The
-    /// sizes are the same.
-    pub fn begin_drawing(&self, recording: &mut Recording<'_>, image: &AcquiredImage, picture: &Image) {
+    /// Copies `picture` to the acquired image, or another one to its left part, and opens it for drawing on
+    /// top. The sizes are the same.
+    pub fn begin_drawing(
+        &self,
+        recording: &mut Recording<'_>,
+        image: &AcquiredImage,
+        picture: &Image,
+        left: Option<(&Image, u32)>,
+    ) {
         let raw = self.images[image.index as usize];
         let buffer = recording.raw();
         let transfer = (vk::PipelineStageFlags2::ALL_TRANSFER, vk::AccessFlags2::TRANSFER_WRITE);
@@ -228,18 +234,29 @@ impl Swapchain {
         let undefined = (vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT, vk::AccessFlags2::NONE);
         let (dst, color) = (vk::ImageLayout::TRANSFER_DST_OPTIMAL, vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL);
         transition(recording, raw, vk::ImageLayout::UNDEFINED, undefined, dst, transfer);
-        let size = [0, 1].map(|axis| self.extent[axis].min(picture.extent()[axis]));
-        let [width, height] = size;
-        let copy = [vk::ImageCopy::default()
-            .src_subresource(LAYER)
-            .dst_subresource(LAYER)
-            .extent(vk::Extent3D { width, height, depth: 1 })];
-        // Bytes as they are: a blit would convert them, which takes a software device as long as tracing.
-        // SAFETY: both images are in these layouts, hold the area, and have four bytes a pixel.
-        unsafe {
+        let copy = |picture: &Image, from: u32, to: u32| {
+            let [width, height] = [0, 1].map(|axis| self.extent[axis].min(picture.extent()[axis]));
+            let (from, to) = (from.min(width), to.min(width));
+            if from == to {
+                return;
+            }
+            let offset = vk::Offset3D { x: from.cast_signed(), y: 0, z: 0 };
+            let region = [vk::ImageCopy::default()
+                .src_subresource(LAYER)
+                .src_offset(offset)
+                .dst_subresource(LAYER)
+                .dst_offset(offset)
+                .extent(vk::Extent3D { width: to - from, height, depth: 1 })];
             let general = vk::ImageLayout::GENERAL;
-            recording.device().raw.cmd_copy_image(buffer, picture.raw, general, raw, dst, &copy);
+            // Bytes as they are: a blit would convert them, which takes a software device as long as tracing.
+            // SAFETY: both images are in these layouts, hold the area, and have four bytes a pixel.
+            unsafe { recording.device().raw.cmd_copy_image(buffer, picture.raw, general, raw, dst, &region) };
+        };
+        let split = left.map_or(0, |(_, split)| split);
+        if let Some((other, split)) = left {
+            copy(other, 0, split);
         }
+        copy(picture, split, self.extent[0]);
         transition(recording, raw, dst, transfer, color, attachment);
         let target = [vk::RenderingAttachmentInfo::default()
             .image_view(self.views[image.index as usize])

@@ -1,17 +1,22 @@
 //! The panel.
 
 mod aperture;
+mod camera;
+mod compare;
 mod lens;
+mod light;
 mod numbers;
 mod optics;
 mod overlay;
+mod sampling;
 mod widgets;
 
 use super::diagram::Diagram;
 use crate::error::Error;
 use crate::renderer::{Picked, Progress};
 use crate::scene::{self, ApertureImage, BUILTINS, CameraModel, SceneRef};
-use crate::settings::{DEFAULT_JITTER, Settings, View};
+use crate::settings::{Settings, View};
+use compare::Held;
 use imgui::{Condition, SliderFlags, Ui};
 use optics::Optics;
 use widgets::{Layout, named, note_item, section, tooltip};
@@ -48,8 +53,20 @@ pub(super) struct Panel {
     scenes: Vec<String>,
     message: Option<String>,
     pub(super) optics: Optics,
+    /// The picture that is held to compare with, if one is.
+    pub(super) held: Option<Held>,
+    pub(super) paused: bool,
+    pub(super) keys: bool,
     /// Where the controls were drawn, to tell when they moved.
     layout: Layout,
+}
+
+/// What a change changes.
+#[derive(Clone, PartialEq)]
+pub(super) struct State {
+    pub(super) settings: Settings,
+    initial: Settings,
+    scene: String,
 }
 
 /// What the panel shows of the renderer.
@@ -67,6 +84,26 @@ pub(super) struct Status<'a> {
 pub(super) enum Action {
     /// Focus on what is in the middle of the picture.
     Autofocus,
+    /// Back to the settings that the scene was opened with.
+    Reset,
+    /// Likewise, but only where the camera stands and looks.
+    ResetCamera,
+    /// Take the last change back.
+    Undo,
+    /// Make it again.
+    Redo,
+    /// Hold the picture beside what comes, or let it go.
+    Compare,
+    /// Let the device rest, or go on.
+    Pause,
+    /// Open or close the drawing of the optics.
+    Optics,
+    /// Show what mouse and keys do, or no longer.
+    Keys,
+    /// Write the picture to the file that is named.
+    SavePicture,
+    /// Put the command that renders the picture into the clipboard.
+    CopyCommand,
 }
 
 impl Panel {
@@ -85,6 +122,9 @@ impl Panel {
             scenes,
             message: None,
             optics: Optics::default(),
+            held: None,
+            paused: false,
+            keys: false,
             layout: Vec::new(),
         }
     }
@@ -104,20 +144,19 @@ impl Panel {
                 self.scene_chooser(ui);
                 self.main_sliders(ui, &mut layout);
                 self.progress(ui, status);
-                if ui.button("Autofocus") {
-                    action = Some(Action::Autofocus);
-                }
+                let mut button = |name, asks| {
+                    if ui.button(name) {
+                        action = Some(asks);
+                    }
+                };
+                button("Autofocus", Action::Autofocus);
                 note_item(ui, "Autofocus", &mut layout);
                 tooltip(
                     ui,
                     "Focuses on what is in the middle of the picture. Right-click anything, or point at it and press F, to focus on that instead; Ctrl and the wheel move the plane by hand.",
                 );
                 ui.same_line();
-                if ui.button("Reset") {
-                    let size = self.settings.estimator.size;
-                    self.settings = self.initial.clone();
-                    self.settings.estimator.size = size;
-                }
+                button("Reset", Action::Reset);
                 note_item(ui, "Reset", &mut layout);
                 tooltip(ui, "Back to the settings that the scene was opened with.");
                 ui.same_line();
@@ -127,16 +166,35 @@ impl Panel {
                     ui,
                     "Draws what the lens does with the light of one pixel, to scale. Click the picture to choose the pixel.",
                 );
+                for (name, asks, help) in [
+                    ("Undo", Action::Undo, "Takes the last change back (Ctrl+Z)."),
+                    ("Redo", Action::Redo, "Makes it again (Ctrl+Shift+Z)."),
+                    ("Compare", Action::Compare, "Holds this picture on the left, to see beside it what you change (C). Once more lets it go."),
+                    (if self.paused { "Go on" } else { "Pause" }, Action::Pause, "The picture stays as it is, and the device rests (P)."),
+                    ("?", Action::Keys, "What mouse and keys do (?)."),
+                ] {
+                    button(name, asks);
+                    note_item(ui, name, &mut layout);
+                    tooltip(ui, help);
+                    ui.same_line();
+                }
+                ui.new_line();
                 section(ui, "Lens", false, &mut layout, |layout| self.opening(ui, layout));
                 if self.settings.estimator.model != CameraModel::Pinhole {
                     section(ui, "Aperture shape", false, &mut layout, |layout| self.shape(ui, layout));
                 }
+                section(ui, "Camera", false, &mut layout, |layout| {
+                    if camera::edit(ui, &mut self.settings.estimator.camera, layout) {
+                        action = Some(Action::ResetCamera);
+                    }
+                });
                 section(ui, "What is sharp", true, &mut layout, |_| self.numbers(ui, status.picked));
                 section(ui, "Light", false, &mut layout, |layout| self.exposure(ui, layout));
                 section(ui, "Sampling", false, &mut layout, |layout| self.sampling(ui, layout));
                 section(ui, "View", false, &mut layout, |layout| self.view(ui, layout));
-                section(ui, "Device", false, &mut layout, |_| device(ui, status));
+                section(ui, "Device", false, &mut layout, |_| sampling::device(ui, status));
             });
+        self.divider(ui, &mut layout);
         self.optics.draw(ui, status.diagram, &mut layout);
         overlay::legend(ui, &self.settings);
         if layout != self.layout {
@@ -146,6 +204,42 @@ impl Panel {
             self.layout = layout;
         }
         action
+    }
+
+    /// Back to what the scene was opened with.
+    pub(super) fn reset(&mut self) {
+        let size = self.settings.estimator.size;
+        self.settings = self.initial.clone();
+        self.settings.estimator.size = size;
+    }
+
+    /// Likewise, but only where the camera stands and looks.
+    pub(super) fn reset_camera(&mut self) {
+        self.settings.estimator.camera = self.initial.estimator.camera;
+    }
+
+    /// A picture is held from now on, on the left of what the panel leaves free.
+    pub(super) fn hold(&mut self) {
+        let width = self.settings.estimator.size[0] as f32;
+        let left = (PANEL_WIDTH + 2.0 * MARGIN) / width;
+        self.held = Some(Held::new(&self.settings, if left < 0.8 { 0.5 * (left + 1.0) } else { 0.5 }));
+    }
+
+    /// Shows a message until there is another one.
+    pub(super) fn say(&mut self, message: String) {
+        self.message = Some(message);
+    }
+
+    /// What undo and redo go back and forth between.
+    pub(super) fn state(&self) -> State {
+        State { settings: self.settings.clone(), initial: self.initial.clone(), scene: self.scene.clone() }
+    }
+
+    /// Puts a state back.
+    pub(super) fn restore(&mut self, state: State) {
+        let size = self.settings.estimator.size;
+        (self.settings, self.initial, self.scene) = (state.settings, state.initial, state.scene);
+        self.settings.estimator.size = size;
     }
 
     /// The renderer took the settings.
@@ -218,106 +312,5 @@ impl Panel {
                 ui.slider_config(id, 1, max_points).flags(LOGARITHMIC).build(samples);
             },
         );
-    }
-
-    fn sampling(&mut self, ui: &Ui, layout: &mut Layout) {
-        let estimator = &mut self.settings.estimator;
-        let mut centre_only = estimator.jitter == 0.0;
-        if ui.checkbox("One centre ray per pixel", &mut centre_only) {
-            estimator.jitter = if centre_only { 0.0 } else { DEFAULT_JITTER };
-        }
-        note_item(ui, "One centre ray per pixel", layout);
-        tooltip(
-            ui,
-            "All rays of a pixel aim at one point in focus: edges in the focal plane turn jagged, blur stays.",
-        );
-
-        named(
-            ui,
-            "Noise threshold",
-            "A pixel stops once its error is below this share of its brightness, and the work goes where the noise is. 0: none stops.",
-            layout,
-            |id| {
-                ui.slider_config(id, 0.0, 0.2)
-                    .display_format(if estimator.noise_threshold > 0.0 { "%.3f" } else { "off" })
-                    .flags(SliderFlags::ALWAYS_CLAMP)
-                    .build(&mut estimator.noise_threshold);
-            },
-        );
-    }
-
-    fn exposure(&mut self, ui: &Ui, layout: &mut Layout) {
-        let Settings { estimator, view, .. } = &mut self.settings;
-        named(
-            ui,
-            "Shutter",
-            "How long light comes in, in seconds. Twice as long is twice as bright, and what moves is blurred along its way. The aperture's blur is another thing.",
-            layout,
-            |id| {
-                let shown = match estimator.shutter {
-                    long if long >= 0.5 => format!("{long:.1} s"),
-                    short => format!("1/{:.0} s", short.recip()),
-                };
-                ui.slider_config(id, 1.0 / 8000.0, 4.0)
-                    .display_format(shown)
-                    .flags(LOGARITHMIC)
-                    .build(&mut estimator.shutter);
-            },
-        );
-        named(ui, "ISO", "The film's speed: twice as fast is twice as bright.", layout, |id| {
-            ui.slider_config(id, 25.0, 25600.0)
-                .display_format("ISO %.0f")
-                .flags(LOGARITHMIC)
-                .build(&mut view.iso);
-        });
-        ui.checkbox("Keep the brightness", &mut view.exposure_lock);
-        note_item(ui, "Keep the brightness", layout);
-        tooltip(
-            ui,
-            "On: the picture stays as bright while the aperture changes. Off: it darkens with each stop, as on film.",
-        );
-        named(
-            ui,
-            "Exposure",
-            "Brightness in stops: each doubles it. Changes only how the picture is shown.",
-            layout,
-            |id| {
-                ui.slider_config(id, -5.0_f32, 5.0)
-                    .display_format("%+.2f stops")
-                    .flags(SliderFlags::ALWAYS_CLAMP)
-                    .build(&mut view.exposure_stops);
-            },
-        );
-    }
-
-    fn progress(&self, ui: &Ui, status: &Status<'_>) {
-        let Progress { samples, active_pixels, .. } = status.progress;
-        let target = self.settings.samples;
-        let text = match active_pixels {
-            None => format!("{samples} / {target} points"),
-            Some(active) => {
-                let [width, height] = self.settings.estimator.size.map(u64::from);
-                let share = 100.0 * active as f64 / (width * height) as f64;
-                format!("{samples} / {target} points, {share:.1}% of the pixels go on")
-            }
-        };
-        imgui::ProgressBar::new(samples as f32 / target as f32)
-            .size([-1.0, 0.0])
-            .overlay_text(text)
-            .build(ui);
-    }
-}
-
-fn device(ui: &Ui, status: &Status<'_>) {
-    let Progress { traced, device_time, rejected_samples, .. } = status.progress;
-    ui.text_wrapped(status.device);
-    let seconds = device_time.as_secs_f64();
-    if seconds > 0.0 {
-        ui.text(format!("{:.1} M samples per second", traced as f64 / seconds / 1e6));
-    } else {
-        ui.text("measuring ...");
-    }
-    if rejected_samples > 0 {
-        ui.text_wrapped(format!("{rejected_samples} samples were not finite and are left out"));
     }
 }

@@ -1,0 +1,79 @@
+//! Keys that act wherever the pointer is, and the list of all of them.
+
+use super::ui::Action;
+use imgui::{Condition, Key, Ui};
+
+/// What hand and keys do, for people.
+const LIST: [(&str, &str); 17] = [
+    ("Right click, F", "focus on what is under the pointer"),
+    ("Ctrl + wheel", "move the focal plane"),
+    ("Click", "draw the optics of this pixel"),
+    ("Drag", "orbit around what the camera looks at"),
+    ("Shift + drag, middle drag", "pan"),
+    ("Wheel", "come nearer or go away"),
+    ("W A S D, Q E", "fly forward, left, back, right; down, up"),
+    ("Home", "the scene's own camera"),
+    ("O", "optics"),
+    ("C", "compare: hold this picture on the left, or let it go"),
+    ("P", "pause, and go on"),
+    ("Ctrl + Z", "undo"),
+    ("Ctrl + Shift + Z, Ctrl + Y", "redo"),
+    ("Ctrl + S", "save the picture"),
+    ("Ctrl + C", "copy the command line that renders it"),
+    ("Tab, arrows, Space", "walk through the panel; Ctrl + click types a number"),
+    ("?, F1", "this list"),
+];
+
+/// What was pressed, if it asks for something.
+pub(super) fn pressed(ui: &Ui) -> Option<Action> {
+    let io = ui.io();
+    if io.want_text_input {
+        return None;
+    }
+    let pressed = |key: Key| ui.is_key_pressed_no_repeat(key);
+    // Wherever a keyboard has it.
+    if pressed(Key::F1) || io.peek_input_characters().contains('?') {
+        return Some(Action::Keys);
+    }
+    let chosen = if io.key_ctrl {
+        let undo = if io.key_shift { Action::Redo } else { Action::Undo };
+        let with_control = [
+            (Key::Z, undo),
+            (Key::Y, Action::Redo),
+            (Key::S, Action::SavePicture),
+            (Key::C, Action::CopyCommand),
+        ];
+        with_control.into_iter().find(|(key, _)| ui.is_key_pressed(*key))
+    } else {
+        let plain = [
+            (Key::O, Action::Optics),
+            (Key::C, Action::Compare),
+            (Key::P, Action::Pause),
+            (Key::Home, Action::ResetCamera),
+        ];
+        plain.into_iter().find(|(key, _)| pressed(*key))
+    };
+    chosen.map(|(_, action)| action)
+}
+
+/// Shows the list, while it is open.
+pub(super) fn help(ui: &Ui, open: &mut bool) {
+    if !*open {
+        return;
+    }
+    let [width, height] = ui.io().display_size;
+    ui.window("Keys")
+        .position([0.5 * width, 0.5 * height], Condition::Appearing)
+        .position_pivot([0.5, 0.5])
+        .always_auto_resize(true)
+        .collapsible(false)
+        .opened(open)
+        .build(|| {
+            let column = LIST.iter().map(|(keys, _)| ui.calc_text_size(keys)[0]).fold(0.0, f32::max) + 24.0;
+            for (keys, meaning) in LIST {
+                ui.text_colored([1.0, 0.85, 0.5, 1.0], keys);
+                ui.same_line_with_pos(ui.cursor_start_pos()[0] + column);
+                ui.text(meaning);
+            }
+        });
+}

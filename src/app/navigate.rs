@@ -1,0 +1,121 @@
+//! Moving the camera by mouse and keys: around what it looks at, along its axes, and back.
+
+use crate::scene::{Camera, MAX_LENGTH};
+use glam::{DQuat, DVec3};
+use imgui::{Key, MouseButton, Ui};
+
+/// Radians a point of the mouse's way turns the camera.
+const TURN: f64 = 0.006;
+/// What a notch of the wheel leaves of the distance.
+const DOLLY: f64 = 0.9;
+/// A second of flight goes this share of the distance to what is looked at.
+const FLIGHT: f64 = 0.6;
+/// The line of sight stays this far from straight up and down, in radians.
+const POLE: f64 = 0.02;
+/// The mouse has to move so far, in points, before a click is a drag.
+const STILL: f32 = 3.0;
+
+/// Keys that fly, and where to: right, up, forward.
+const FLYING: [(Key, [f64; 3]); 6] = [
+    (Key::W, [0.0, 0.0, 1.0]),
+    (Key::S, [0.0, 0.0, -1.0]),
+    (Key::A, [-1.0, 0.0, 0.0]),
+    (Key::D, [1.0, 0.0, 0.0]),
+    (Key::Q, [0.0, -1.0, 0.0]),
+    (Key::E, [0.0, 1.0, 0.0]),
+];
+
+/// What the hand is doing to the camera.
+#[derive(Default)]
+pub(super) struct Navigate {
+    /// The button that is held, and whether it has become a drag.
+    held: Option<(MouseButton, bool)>,
+    flying: bool,
+}
+
+impl Navigate {
+    /// Moves the camera as mouse and keys say.
+    pub(super) fn take_input(&mut self, ui: &Ui, camera: &mut Camera) {
+        let io = ui.io();
+        let over_picture = !io.want_capture_mouse;
+        for button in [MouseButton::Left, MouseButton::Middle] {
+            if over_picture && self.held.is_none() && ui.is_mouse_clicked(button) {
+                self.held = Some((button, false));
+            }
+        }
+        if let Some((button, drags)) = &mut self.held {
+            if ui.is_mouse_down(*button) {
+                let [x, y] = ui.mouse_drag_delta_with_threshold(*button, 0.0);
+                *drags |= x.hypot(y) > STILL;
+                if *drags {
+                    let [x, y] = [x, y].map(f64::from);
+                    if *button == MouseButton::Middle || io.key_shift {
+                        pan(camera, [x, y], io.display_size[1]);
+                    } else {
+                        orbit(camera, [-TURN * x, -TURN * y]);
+                    }
+                    ui.reset_mouse_drag_delta(*button);
+                }
+            } else {
+                self.held = None;
+            }
+        }
+        if over_picture && io.mouse_wheel != 0.0 && !io.key_ctrl {
+            dolly(camera, DOLLY.powf(f64::from(io.mouse_wheel)));
+        }
+        let keys = !io.want_text_input && !io.key_ctrl && !io.key_alt;
+        let held = FLYING.iter().filter(|(key, _)| keys && ui.is_key_down(*key));
+        let way: DVec3 = held.map(|(_, way)| DVec3::from_array(*way)).sum();
+        self.flying = way != DVec3::ZERO;
+        if self.flying {
+            fly(camera, (way * FLIGHT * f64::from(io.delta_time.min(0.1))).to_array());
+        }
+    }
+
+    /// Whether the camera is under way.
+    pub(super) fn is_moving(&self) -> bool {
+        self.flying || self.held.is_some_and(|(_, drags)| drags)
+    }
+}
+
+/// Places the camera so, where f32 still tells its place from what it looks at.
+fn place(camera: &mut Camera, eye: DVec3, look_at: DVec3) {
+    let (eye, look_at) = (eye.as_vec3(), look_at.as_vec3());
+    let moved = Camera { eye, look_at, ..*camera };
+    let within = |point: glam::Vec3| point.abs().max_element() <= MAX_LENGTH;
+    if within(eye) && within(look_at) && moved.fault().is_none() {
+        *camera = moved;
+    }
+}
+
+/// Turns around what is looked at: to the right by the first angle, and up by the second.
+fn orbit(camera: &mut Camera, [right, up]: [f64; 2]) {
+    let (eye, look_at) = (camera.eye.as_dvec3(), camera.look_at.as_dvec3());
+    let pole = camera.up.as_dvec3().normalize();
+    let away = DQuat::from_axis_angle(pole, right) * (eye - look_at);
+    let from_pole = away.angle_between(pole);
+    let turned = (from_pole - up).clamp(POLE, std::f64::consts::PI - POLE) - from_pole;
+    let aside = pole.cross(away).normalize();
+    place(camera, look_at + DQuat::from_axis_angle(aside, turned) * away, look_at);
+}
+
+/// Moves sideways, so that what is looked at follows the mouse by so many points.
+fn pan(camera: &mut Camera, [x, y]: [f64; 2], height: f32) {
+    let (eye, look_at, frame) = (camera.eye.as_dvec3(), camera.look_at.as_dvec3(), camera.frame());
+    let pixel = 2.0 * (0.5 * camera.vfov_radians).tan() * eye.distance(look_at) / f64::from(height);
+    let shift = (y * frame.v() - x * frame.u()) * pixel;
+    place(camera, eye + shift, look_at + shift);
+}
+
+/// Moves towards what is looked at, to this share of the distance.
+fn dolly(camera: &mut Camera, share: f64) {
+    let (eye, look_at) = (camera.eye.as_dvec3(), camera.look_at.as_dvec3());
+    place(camera, look_at + (eye - look_at) * share, look_at);
+}
+
+/// Moves right, up and forward, in distances to what is looked at.
+fn fly(camera: &mut Camera, [right, up, forward]: [f64; 3]) {
+    let (eye, look_at, frame) = (camera.eye.as_dvec3(), camera.look_at.as_dvec3(), camera.frame());
+    let shift = (right * frame.u() + up * frame.v() - forward * frame.w()) * eye.distance(look_at);
+    place(camera, eye + shift, look_at + shift);
+}

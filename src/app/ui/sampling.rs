@@ -1,0 +1,69 @@
+//! The parts of the panel that say how the picture is sampled, and how far it is.
+
+use super::widgets::{Layout, named, note_item, tooltip};
+use super::{Panel, Status};
+use crate::renderer::Progress;
+use crate::settings::DEFAULT_JITTER;
+use imgui::{SliderFlags, Ui};
+
+impl Panel {
+    pub(super) fn sampling(&mut self, ui: &Ui, layout: &mut Layout) {
+        let estimator = &mut self.settings.estimator;
+        let mut centre_only = estimator.jitter == 0.0;
+        if ui.checkbox("One centre ray per pixel", &mut centre_only) {
+            estimator.jitter = if centre_only { 0.0 } else { DEFAULT_JITTER };
+        }
+        note_item(ui, "One centre ray per pixel", layout);
+        tooltip(
+            ui,
+            "All rays of a pixel aim at one point in focus: edges in the focal plane turn jagged, blur stays.",
+        );
+
+        named(
+            ui,
+            "Noise threshold",
+            "A pixel stops once its error is below this share of its brightness, and the work goes where the noise is. 0: none stops.",
+            layout,
+            |id| {
+                ui.slider_config(id, 0.0, 0.2)
+                    .display_format(if estimator.noise_threshold > 0.0 { "%.3f" } else { "off" })
+                    .flags(SliderFlags::ALWAYS_CLAMP)
+                    .build(&mut estimator.noise_threshold);
+            },
+        );
+    }
+
+    pub(super) fn progress(&self, ui: &Ui, status: &Status<'_>) {
+        let Progress { samples, active_pixels, traced, device_time, .. } = status.progress;
+        let target = self.settings.samples;
+        let mut text = format!("{samples} / {target} points");
+        let [width, height] = self.settings.estimator.size.map(u64::from);
+        if let Some(active) = active_pixels {
+            let share = 100.0 * active as f64 / (width * height) as f64;
+            text += &format!(", {share:.1}% of the pixels go on");
+        } else if self.paused {
+            text += ", paused";
+        } else if samples < target && traced > 0 {
+            let left = u64::from(target - samples) * width * height;
+            text += &format!(", {:.0} s left", left as f64 * device_time.as_secs_f64() / traced as f64);
+        }
+        imgui::ProgressBar::new(samples as f32 / target as f32)
+            .size([-1.0, 0.0])
+            .overlay_text(text)
+            .build(ui);
+    }
+}
+
+pub(super) fn device(ui: &Ui, status: &Status<'_>) {
+    let Progress { traced, device_time, rejected_samples, .. } = status.progress;
+    ui.text_wrapped(status.device);
+    let seconds = device_time.as_secs_f64();
+    if seconds > 0.0 {
+        ui.text(format!("{:.1} M samples per second", traced as f64 / seconds / 1e6));
+    } else {
+        ui.text("measuring ...");
+    }
+    if rejected_samples > 0 {
+        ui.text_wrapped(format!("{rejected_samples} samples were not finite and are left out"));
+    }
+}
