@@ -69,6 +69,14 @@ pub enum Error {
     /// The output's name asks for no known format.
     #[error("cannot write '{}': its name must end in .png or .exr", .0.display())]
     UnknownFormat(PathBuf),
+    /// A picture file does not say how it was made.
+    #[error("{} cannot be rendered again: {why}; give the scene and options instead", path.display())]
+    NoOrigin {
+        /// Which file.
+        path: PathBuf,
+        /// Why.
+        why: String,
+    },
     /// A file cannot be read.
     #[error("cannot read {}: {source}; check the path and its permissions", path.display())]
     Read {
@@ -153,6 +161,7 @@ impl Error {
             | Self::UnknownFormat(_)
             | Self::OutOfRange(_)
             | Self::NothingToFocusOn { .. }
+            | Self::NoOrigin { .. }
             | Self::UnknownDevice { .. } => 2,
             _ => 1,
         }

@@ -2,7 +2,7 @@
 
 use clap::Parser;
 use std::process::ExitCode;
-use thinlens::cli::{BenchArgs, Cli, Command, RenderArgs, ViewArgs};
+use thinlens::cli::{Cli, Command, RenderArgs, ViewArgs, settings_of_arguments};
 use thinlens::error::{Error, Result};
 use thinlens::{app, bench, output, verify};
 
@@ -19,8 +19,11 @@ fn main() -> ExitCode {
 fn run(command: Command) -> Result<()> {
     match command {
         Command::View(args) => view(&args),
-        Command::Render(RenderArgs { settings, autofocus, output, stats, device, quiet }) => {
-            let settings = output::load(quiet, || settings.of_file())?;
+        Command::Render(RenderArgs { from, settings, autofocus, output, stats, device, quiet }) => {
+            let settings = output::load(quiet, || match &from {
+                Some(picture) => settings.of_picture(&output::Origin::read(picture)?.arguments),
+                None => settings.of_file(),
+            })?;
             output::render(&output::Job {
                 settings,
                 autofocus,
@@ -35,7 +38,6 @@ fn run(command: Command) -> Result<()> {
         }
         Command::Bench(args) => bench::run(&bench::Job {
             pictures: args.pictures()?,
-            samplers: BenchArgs::samplers(),
             runs: args.runs,
             device: args.device.choice(),
             json: args.json,
@@ -46,15 +48,19 @@ fn run(command: Command) -> Result<()> {
 }
 
 fn view(args: &ViewArgs) -> Result<()> {
-    let (scene, device) = (args.settings.scene().to_owned(), args.device.choice());
-    let settings = output::load(false, || args.settings.of_window())?;
-    match app::run(app::Options {
-        settings,
-        size: args.settings.size,
-        scene: scene.clone(),
-        device: device.clone(),
-    }) {
-        Err(Error::NoDisplay(why)) => output::render_instead(args.settings.of_file()?, &scene, device, &why),
+    let (memory, device) = (app::Memory::load(), args.device.choice());
+    let named = || output::load(false, || args.settings.of_window());
+    let again = args.settings.is_plain() && !memory.arguments.is_empty();
+    // What was there the last time may be gone by now.
+    let (settings, initial, message) = match again.then(|| settings_of_arguments(&memory.arguments)) {
+        Some(Ok(settings)) => (settings.clone(), settings.of_scene_alone(), None),
+        Some(Err(error)) => (named()?, named()?, Some(error.to_string())),
+        None => named().map(|settings| (settings.clone(), settings, None))?,
+    };
+    let (size, reopen) = (args.settings.size, settings_of_arguments);
+    match app::run(app::Options { settings, initial, size, memory, reopen, message, device: device.clone() })
+    {
+        Err(Error::NoDisplay(why)) => output::render_instead(args.settings.of_file()?, device, &why),
         outcome => outcome,
     }
 }

@@ -158,7 +158,8 @@ fn films_are_shown_as_the_pictures_that_were_looked_at() {
         let gpu = Gpu::new();
         for case in &cases {
             let file = PendingFile::create(&path(case.name)).expect("a writable folder");
-            write_png(file, case.extent, &resolve(&gpu, case).expect("a picture")).expect("a picture file");
+            write_png(file, case.extent, &resolve(&gpu, case).expect("a picture"), None)
+                .expect("a picture file");
         }
     }
     let check = |gpu: &Gpu| -> Result<String> {

@@ -190,6 +190,6 @@ fn brightness_goes_with_aperture_time_and_film() {
     assert!(picture(&["--iso", "400"]) == picture(&["--exposure", "2"]));
     let own = thinlens::scene::load("version-4").expect("a built-in scene");
     let half = (f64::from(own.lens.diameter) / 2.0).to_string();
-    let unlocked = picture(&["--lens-diameter", &half, "--unlock-exposure"]);
+    let unlocked = picture(&["--lens-diameter", &half, "--exposure-lock=false"]);
     assert!(unlocked == picture(&["--lens-diameter", &half, "--exposure", "-2"]));
 }

@@ -2,12 +2,14 @@
 //! renderer.
 
 use crate::error::{Error, Result};
+use crate::output;
 use crate::renderer::{Pace, Picked, Progress, Question, Renderer};
 use crate::settings::Settings;
 use crate::vulkan::{
     Acquired, AcquiredImage, Commands, Device, FRAMES_IN_FLIGHT, Image, Instance, Surface, Swapchain,
 };
 use imgui_rs_vulkan_renderer::{DynamicRendering, Options};
+use std::path::Path;
 use std::sync::Arc;
 use winit::window::Window;
 
@@ -110,6 +112,14 @@ impl Graphics {
         self.device.wait_idle()?;
         self.held = self.renderer.hold_picture()?;
         Ok(self.held.is_some())
+    }
+
+    /// Saves the picture as it is now: that of so many samples as it has.
+    pub(super) fn save(&mut self, settings: &Settings, path: &Path) -> Result<()> {
+        self.device.wait_idle()?;
+        let saved = output::save(&mut self.renderer, settings, path);
+        self.renderer.set(settings)?;
+        saved
     }
 
     /// Whether a picture is held that is as large as the window.

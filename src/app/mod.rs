@@ -1,27 +1,40 @@
 //! The viewer: a window that shows the film as it fills, and a panel that changes what is rendered.
 
+mod clipboard;
 pub mod diagram;
 mod focus;
 mod graphics;
 mod history;
 mod keys;
+mod memory;
 mod navigate;
 mod ui;
 mod window;
 
+pub use memory::Memory;
+
 use crate::error::{Error, Result};
 use crate::settings::{DeviceChoice, Settings};
 use winit::event_loop::EventLoop;
+
+/// Settings from arguments, as [`Settings::arguments`] gives them.
+pub type Reopen = fn(&[String]) -> Result<Settings>;
 
 /// What the viewer starts with.
 #[derive(Debug, Clone)]
 pub struct Options {
     /// What to render. The picture's size follows the window's.
     pub settings: Settings,
-    /// The scene as it was named, for the scene chooser.
-    pub scene: String,
+    /// What Reset goes back to.
+    pub initial: Settings,
     /// The window's size in physical pixels, if one was asked for.
     pub size: Option<[u32; 2]>,
+    /// What there was the last time.
+    pub memory: Memory,
+    /// How settings come of the arguments that a picture carries.
+    pub reopen: Reopen,
+    /// What to tell the user at first.
+    pub message: Option<String>,
     /// Where to render.
     pub device: DeviceChoice,
 }

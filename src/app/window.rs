@@ -1,16 +1,18 @@
 //! The window and its events.
 
 use super::Options;
+use super::clipboard::Clipboard;
 use super::focus::Focus;
 use super::graphics::{Answer, Graphics};
 use super::history::History;
-use super::keys;
 use super::navigate::Navigate;
 use super::ui::{Action, Panel, State, Status};
+use super::{keys, memory};
 use crate::error::{Error, Result};
 use crate::renderer::Pace;
 use crate::vulkan::Instance;
 use imgui_winit_support::{HiDpiMode, WinitPlatform};
+use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use winit::application::ApplicationHandler;
@@ -111,6 +113,7 @@ impl ApplicationHandler for Viewer {
             event => {
                 match event {
                     WindowEvent::Resized(_) => open.graphics.refit(),
+                    WindowEvent::DroppedFile(ref path) => open.panel.open(&path.display().to_string()),
                     WindowEvent::Occluded(occluded) => open.occluded = occluded,
                     _ => {}
                 }
@@ -142,13 +145,16 @@ impl ApplicationHandler for Viewer {
     }
 
     fn exiting(&mut self, _event_loop: &ActiveEventLoop) {
+        if let Some(open) = &self.open {
+            open.panel.memory().save();
+        }
         self.open = None;
     }
 }
 
 impl Open {
     fn new(event_loop: &ActiveEventLoop, options: &Options, instance: &Arc<Instance>) -> Result<Self> {
-        let [width, height] = options.size.unwrap_or(DEFAULT_SIZE);
+        let [width, height] = options.size.or(options.memory.size).unwrap_or(DEFAULT_SIZE);
         let attributes = Window::default_attributes()
             .with_title("thinlens")
             .with_min_inner_size(PhysicalSize::new(64, 64))
@@ -158,13 +164,14 @@ impl Open {
         let graphics = Graphics::new(&window, instance, options.device.device.as_deref())?;
 
         let mut imgui = imgui::Context::create();
-        imgui.set_ini_filename(None);
+        imgui.set_ini_filename(memory::file("windows.ini"));
+        imgui.set_clipboard_backend(Clipboard::new());
         imgui.io_mut().config_windows_move_from_title_bar_only = true;
         imgui.io_mut().config_flags |=
             imgui::ConfigFlags::NAV_ENABLE_KEYBOARD | imgui::ConfigFlags::DOCKING_ENABLE;
         let mut platform = WinitPlatform::new(&mut imgui);
         platform.attach_window(imgui.io_mut(), &window, HiDpiMode::Default);
-        let panel = Panel::new(options.settings.clone(), options.scene.clone());
+        let panel = Panel::new(options);
         let mut open = Self {
             graphics,
             platform,
@@ -276,6 +283,11 @@ impl Open {
         if ui.io().want_text_input {
             self.frames_to_draw = self.frames_to_draw.max(1); // the caret blinks
         }
+        if action == Some(Action::CopyCommand) {
+            let line = self.panel.settings.command_line("picture.png");
+            log::debug!("copied {line}");
+            ui.set_clipboard_text(line);
+        }
         self.platform.prepare_render(ui, &self.window);
         if let Some(action) = action {
             self.act(action)?;
@@ -326,7 +338,13 @@ impl Open {
             Action::Pause => self.panel.paused ^= true,
             Action::Optics => self.panel.optics.open ^= true,
             Action::Keys => self.panel.keys ^= true,
-            Action::SavePicture | Action::CopyCommand => {}
+            Action::CopyCommand => self.panel.say("The command line is in the clipboard.".into()),
+            Action::SavePicture => {
+                match self.graphics.save(&self.panel.settings, Path::new(self.panel.picture_file())) {
+                    Ok(()) => self.panel.picture_is_saved(),
+                    Err(error) => self.panel.say(error.to_string()),
+                }
+            }
         }
         Ok(())
     }

@@ -29,8 +29,6 @@ pub const MAX_RUNS: u32 = 1000;
 pub struct Job {
     /// A picture of each scene; throughput is measured at its size and number of samples.
     pub pictures: Vec<Settings>,
-    /// The samplers to compare, by their names.
-    pub samplers: Vec<(String, Sampler)>,
     /// How often everything is measured.
     pub runs: u32,
     /// On which device.
@@ -49,15 +47,14 @@ pub(crate) struct Variant {
 }
 
 /// The ways to compare.
-fn variants(samplers: &[(String, Sampler)]) -> Vec<Variant> {
-    let of_sampler = |(name, sampler): &(String, Sampler)| {
-        let sampler = *sampler;
+fn variants() -> Vec<Variant> {
+    let of_sampler = |(name, sampler): (&str, Sampler)| {
         let change = move |settings: &mut Settings| settings.estimator.sampler = sampler;
-        Variant { name: name.clone(), change: Box::new(change) }
+        Variant { name: name.into(), change: Box::new(change) }
     };
     let adaptive = |settings: &mut Settings| settings.estimator.noise_threshold = NOISE_THRESHOLD;
     let adaptive = Variant { name: "adaptive".into(), change: Box::new(adaptive) };
-    samplers.iter().map(of_sampler).chain([adaptive]).collect()
+    Sampler::NAMES.into_iter().map(of_sampler).chain([adaptive]).collect()
 }
 
 /// Measures, and prints or writes the figures.
@@ -77,7 +74,7 @@ pub fn run(job: &Job) -> Result<()> {
     if table {
         say(&report.heading())?;
     }
-    let variants = variants(&job.samplers);
+    let variants = variants();
     let mut renderer = Renderer::new(&device)?;
     for picture in &job.pictures {
         eprintln!("measuring {} ...", picture.estimator.scene.name);

@@ -2,11 +2,10 @@
 
 mod settings;
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::scene::{self, BUILTINS, SceneRef};
-use crate::settings::{DEFAULT_SAMPLES, DeviceChoice, Place, Sampler, Settings};
-use clap::{Args, Parser, Subcommand, ValueEnum};
-use settings::SamplerArg;
+use crate::settings::{DEFAULT_SAMPLES, DeviceChoice, Place, Settings};
+use clap::{Args, Parser, Subcommand};
 pub use settings::SettingsArgs;
 use std::path::PathBuf;
 
@@ -60,6 +59,10 @@ pub struct ViewArgs {
 /// `thinlens render`.
 #[derive(Debug, Args)]
 pub struct RenderArgs {
+    /// Render a picture again that thinlens saved, with the settings that it carries; other options change
+    /// them
+    #[arg(long, value_name = "PICTURE.png|PICTURE.exr", conflicts_with = "scene")]
+    pub from: Option<PathBuf>,
     /// What to render.
     #[command(flatten)]
     pub settings: SettingsArgs,
@@ -98,7 +101,7 @@ pub struct RenderArgs {
     mut_arg("overlay", |overlay| overlay.hide(true)),
     mut_arg("tolerance", |tolerance| tolerance.hide(true)),
     mut_arg("iso", |iso| iso.hide(true)),
-    mut_arg("unlock_exposure", |unlock| unlock.hide(true)),
+    mut_arg("exposure_lock", |lock| lock.hide(true)),
     mut_arg("exposure", |exposure| exposure.hide(true))
 )]
 pub struct VerifyArgs {
@@ -143,6 +146,26 @@ pub struct DeviceArgs {
     pub validation: bool,
 }
 
+/// The settings that these arguments give: those of a picture, as [`Settings::arguments`] has them.
+///
+/// # Errors
+/// [`crate::error::Error::OutOfRange`] for what is none, or of the scene.
+pub fn settings_of_arguments(arguments: &[String]) -> Result<Settings> {
+    /// Like [`RenderArgs`], but without anything that is not the picture's.
+    #[derive(Parser)]
+    #[command(no_binary_name = true)]
+    struct Picture {
+        #[command(flatten)]
+        settings: SettingsArgs,
+    }
+    let picture = Picture::try_parse_from(arguments).map_err(|error| {
+        let text = error.to_string();
+        let what = text.lines().next().unwrap_or_default().trim_start_matches("error: ");
+        Error::OutOfRange(format!("the saved settings cannot be used: {what}"))
+    })?;
+    picture.settings.of_file()
+}
+
 impl DeviceArgs {
     /// As a plain value.
     pub fn choice(&self) -> DeviceChoice {
@@ -167,15 +190,6 @@ impl BenchArgs {
             return BUILTINS.iter().map(|builtin| picture(builtin.name)).collect();
         }
         self.scenes.iter().map(|name| picture(name)).collect()
-    }
-
-    /// Every sampler, by its name.
-    pub fn samplers() -> Vec<(String, Sampler)> {
-        let name = |sampler: &SamplerArg| {
-            let value = sampler.to_possible_value()?;
-            Some((value.get_name().to_owned(), sampler.plain()))
-        };
-        SamplerArg::value_variants().iter().filter_map(name).collect()
     }
 }
 

@@ -4,8 +4,9 @@ use super::parse_size;
 use crate::error::Result;
 use crate::scene::{self, ApertureImage, BUILTINS, CameraModel, SceneRef};
 use crate::settings::{DEFAULT_SAMPLES, Overlay, PRESETS, Preset, Sampler, Settings};
-use clap::builder::PossibleValuesParser;
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use glam::Vec3;
 use std::path::PathBuf;
 
 /// Samples per pixel that the viewer goes for, unless another number is asked for.
@@ -16,7 +17,7 @@ const PROOF_SIZE: [u32; 2] = [128, 96];
 const PROOF_SAMPLES: u32 = 16;
 
 /// What to render: a scene, and what to change of it.
-#[derive(Debug, Args, Default)]
+#[derive(Debug, Args, Default, PartialEq)]
 pub struct SettingsArgs {
     /// A built-in scene (see thinlens scenes), .toml or .obj file [default: version-4]
     scene: Option<String>,
@@ -26,6 +27,22 @@ pub struct SettingsArgs {
     /// Picture size in pixels [default: the scene's, in the viewer the window's]
     #[arg(short, long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<[u32; 2]>,
+    /// Where the lens centre is [default: the scene's]
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
+    eye: Option<Vec3>,
+    /// A point that the camera looks at [default: the scene's]
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
+    look_at: Option<Vec3>,
+    /// Which way is roughly up [default: the scene's]
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
+    up: Option<Vec3>,
+    /// Field of view from the lower to the upper edge, in degrees [default: the scene's]
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    vfov: Option<f64>,
+    /// Length of a scene unit in metres: it ties the scene to millimetres of film and lens [default: the
+    /// scene's]
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    metres_per_unit: Option<f64>,
     /// Diameter of the lens, in scene units: wider blurs more, 0 is a pinhole [default: the scene's]
     #[arg(long, value_name = "L", allow_negative_numbers = true)]
     lens_diameter: Option<f32>,
@@ -38,14 +55,14 @@ pub struct SettingsArgs {
     preset: Option<String>,
     /// What forms the picture: a thin lens, an ideal pinhole that leaves everything sharp, or a real hole
     /// in a box, without a lens [default: the scene's]
-    #[arg(long, value_name = "thin-lens|pinhole|hole", value_enum, hide_possible_values = true)]
-    camera: Option<CameraArg>,
+    #[arg(long, value_name = "thin-lens|pinhole|hole", value_parser = one_of(&CameraModel::NAMES), hide_possible_values = true)]
+    camera: Option<CameraModel>,
     /// Diameter of the hole, with --camera hole, in scene units [default: the scene's, or 0.3 mm]
     #[arg(long, value_name = "L", allow_negative_numbers = true)]
     hole_diameter: Option<f32>,
     /// Turn the picture of a hole upright: on the film it is upside down
-    #[arg(long)]
-    upright: bool,
+    #[arg(long, value_name = "true|false", num_args = 0..=1, require_equals = true, default_missing_value = "true")]
+    upright: Option<bool>,
     /// The opening's shape: an iris of so many blades, 3 to 16; 0 is a disc [default: the scene's]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     blades: Option<u32>,
@@ -58,7 +75,7 @@ pub struct SettingsArgs {
     /// The opening's height over its width, 0.1 to 10; the longer is the diameter [default: the scene's]
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
     anamorphic: Option<f32>,
-    /// The shape of a PNG: light comes in where it is bright
+    /// The shape of a PNG: light comes in where it is bright; none takes the scene's away
     #[arg(long, value_name = "FILE.png")]
     aperture_image: Option<PathBuf>,
     /// Optical vignetting: how far the lens's front rim is off its centre, seen from the picture's corner,
@@ -78,8 +95,8 @@ pub struct SettingsArgs {
     max_bounces: Option<u32>,
     /// How the points are chosen: sobol keeps a pixel's points apart, blue-noise also sets neighbouring
     /// pixels off against each other, random does neither [default: blue-noise]
-    #[arg(long, value_name = "blue-noise|sobol|random", value_enum, hide_possible_values = true)]
-    sampler: Option<SamplerArg>,
+    #[arg(long, value_name = "blue-noise|sobol|random", value_parser = one_of(&Sampler::NAMES), hide_possible_values = true)]
+    sampler: Option<Sampler>,
     /// Stops each pixel whose error is below this share of its brightness, 0.02 say, so that the work goes
     /// where the noise is; --samples is then the most that a pixel gets [default: 0, none stops]
     #[arg(long, value_name = "E", allow_negative_numbers = true)]
@@ -94,10 +111,10 @@ pub struct SettingsArgs {
     /// The film's speed: higher is brighter [default: the scene's, or 100]
     #[arg(long, value_name = "ISO", allow_negative_numbers = true)]
     iso: Option<f32>,
-    /// Let the brightness change with the aperture, as film does; else it stays as the scene's lens makes
-    /// it
-    #[arg(long)]
-    unlock_exposure: bool,
+    /// Whether the brightness stays as the scene's lens makes it; else it changes with the aperture, as on
+    /// film [default: true]
+    #[arg(long, value_name = "true|false", num_args = 0..=1, require_equals = true, default_missing_value = "true")]
+    exposure_lock: Option<bool>,
     /// Brightness of a PNG or the window in stops: +1 doubles it, -1 halves it; an EXR stays as it is
     /// [default: 0]
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true)]
@@ -107,74 +124,14 @@ pub struct SettingsArgs {
     /// sharp marked (focus-peaking), or what the focal plane cuts (focal-plane)
     #[arg(
         long,
-        value_name = "focus-peaking|focal-plane|circle-of-confusion|depth|count|error",
-        value_enum,
+        value_name = "focus-peaking|focal-plane|circle-of-confusion|depth|count|error|none",
+        value_parser = one_of(&OVERLAYS),
         hide_possible_values = true
     )]
-    overlay: Option<OverlayArg>,
+    overlay: Option<Shown>,
     /// How wide a circle of confusion may be that counts as sharp, in pixels [default: 1]
     #[arg(long, value_name = "PX", allow_negative_numbers = true)]
     tolerance: Option<f32>,
-}
-
-/// What is shown instead of the picture.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum OverlayArg {
-    FocusPeaking,
-    FocalPlane,
-    CircleOfConfusion,
-    Depth,
-    Count,
-    Error,
-}
-
-impl OverlayArg {
-    fn plain(self) -> Overlay {
-        match self {
-            Self::FocusPeaking => Overlay::FocusPeaking,
-            Self::FocalPlane => Overlay::FocalPlane,
-            Self::CircleOfConfusion => Overlay::Blur,
-            Self::Depth => Overlay::Depth,
-            Self::Count => Overlay::Count,
-            Self::Error => Overlay::Error,
-        }
-    }
-}
-
-/// What forms the picture.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum CameraArg {
-    ThinLens,
-    Pinhole,
-    Hole,
-}
-
-impl CameraArg {
-    fn plain(self) -> CameraModel {
-        match self {
-            Self::ThinLens => CameraModel::ThinLens,
-            Self::Pinhole => CameraModel::Pinhole,
-            Self::Hole => CameraModel::Hole,
-        }
-    }
-}
-
-/// How sample values are made.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub(super) enum SamplerArg {
-    BlueNoise,
-    Sobol,
-    Random,
-}
-
-impl SamplerArg {
-    pub(super) fn plain(self) -> Sampler {
-        match self {
-            Self::BlueNoise => Sampler::BlueNoise,
-            Self::Sobol => Sampler::Sobol,
-            Self::Random => Sampler::Random,
-        }
-    }
 }
 
 impl SettingsArgs {
@@ -184,6 +141,21 @@ impl SettingsArgs {
     /// Of the scene, or [`crate::error::Error::OutOfRange`].
     pub fn of_file(&self) -> Result<Settings> {
         self.resolve(DEFAULT_SAMPLES)
+    }
+
+    /// The settings of a picture for a file that starts from another one's arguments.
+    ///
+    /// # Errors
+    /// Of either, or of the scene.
+    pub fn of_picture(&self, arguments: &[String]) -> Result<Settings> {
+        let mut settings = super::settings_of_arguments(arguments)?;
+        self.apply(&mut settings)?;
+        Ok(settings)
+    }
+
+    /// Whether nothing was named.
+    pub fn is_plain(&self) -> bool {
+        *self == Self::default()
     }
 
     /// The settings that the viewer starts with.
@@ -223,43 +195,100 @@ impl SettingsArgs {
 
     fn resolve_scene(&self, name: &str, samples: u32) -> Result<Settings> {
         let mut settings = Settings::of_scene(SceneRef::new(scene::load(name)?));
-        let estimator = &mut settings.estimator;
-        estimator.size = self.size.unwrap_or(estimator.size);
+        settings.samples = samples;
+        self.apply(&mut settings)?;
+        Ok(settings)
+    }
+
+    /// Changes what was named, and leaves the rest.
+    ///
+    /// # Errors
+    /// [`crate::error::Error::OutOfRange`], or of an image.
+    pub fn apply(&self, settings: &mut Settings) -> Result<()> {
+        let Settings { estimator, view, samples } = settings;
+        set(&mut estimator.size, self.size);
+        set(samples, self.samples);
+        let camera = &mut estimator.camera;
+        set(&mut camera.eye, self.eye);
+        set(&mut camera.look_at, self.look_at);
+        set(&mut camera.up, self.up);
+        set(&mut camera.vfov_radians, self.vfov.map(f64::to_radians));
+        set(&mut camera.metres_per_unit, self.metres_per_unit);
         if let Some(preset) = self.preset.as_deref().and_then(Preset::named) {
             preset.apply(estimator);
         }
-        estimator.model = self.camera.map_or(estimator.model, CameraArg::plain);
-        estimator.lens.diameter = self.lens_diameter.unwrap_or(estimator.lens.diameter);
+        set(&mut estimator.model, self.camera);
+        set(&mut estimator.lens.diameter, self.lens_diameter);
         if let Some(f_number) = self.f_number {
             estimator.set_f_number(f_number)?;
         }
-        estimator.hole.diameter = self.hole_diameter.unwrap_or(estimator.hole.diameter);
-        estimator.hole.upright |= self.upright;
+        set(&mut estimator.lens.focal_distance, self.focal_distance);
+        set(&mut estimator.hole.diameter, self.hole_diameter);
+        set(&mut estimator.hole.upright, self.upright);
+
         let aperture = &mut estimator.aperture;
-        aperture.blades = self.blades.unwrap_or(aperture.blades);
-        aperture.rotation_degrees = self.blade_rotation.unwrap_or(aperture.rotation_degrees);
-        aperture.roundness = self.roundness.unwrap_or(aperture.roundness);
-        aperture.anamorphic = self.anamorphic.unwrap_or(aperture.anamorphic);
-        aperture.cats_eye = self.cats_eye.unwrap_or(aperture.cats_eye);
-        estimator.shutter = self.shutter.unwrap_or(estimator.shutter);
-        settings.view.iso = self.iso.unwrap_or(settings.view.iso);
-        settings.view.exposure_lock = !self.unlock_exposure;
+        set(&mut aperture.blades, self.blades);
+        set(&mut aperture.rotation_degrees, self.blade_rotation);
+        set(&mut aperture.roundness, self.roundness);
+        set(&mut aperture.anamorphic, self.anamorphic);
+        set(&mut aperture.cats_eye, self.cats_eye);
         if let Some(path) = &self.aperture_image {
-            aperture.image = Some(ApertureImage::read(path)?);
+            let none = path.as_os_str() == "none";
+            aperture.image = if none { None } else { Some(ApertureImage::read(path)?) };
         }
-        estimator.lens.focal_distance = self.focal_distance.unwrap_or(estimator.lens.focal_distance);
-        estimator.jitter = self.jitter.unwrap_or(estimator.jitter);
-        estimator.max_bounces = self.max_bounces.unwrap_or(estimator.max_bounces);
-        estimator.sampler = self.sampler.map_or(estimator.sampler, SamplerArg::plain);
-        estimator.seed = self.seed.unwrap_or(estimator.seed);
-        estimator.noise_threshold = self.noise_threshold.unwrap_or(estimator.noise_threshold);
-        settings.view.exposure_stops = self.exposure.unwrap_or(settings.view.exposure_stops);
-        settings.show(self.overlay.map(OverlayArg::plain));
-        settings.view.tolerance = self.tolerance.unwrap_or(settings.view.tolerance);
-        settings.samples = self.samples.unwrap_or(samples);
-        settings.check()?;
-        Ok(settings)
+
+        set(&mut estimator.jitter, self.jitter);
+        set(&mut estimator.max_bounces, self.max_bounces);
+        set(&mut estimator.sampler, self.sampler);
+        set(&mut estimator.seed, self.seed);
+        set(&mut estimator.noise_threshold, self.noise_threshold);
+        set(&mut estimator.shutter, self.shutter);
+        set(&mut view.iso, self.iso);
+        set(&mut view.exposure_lock, self.exposure_lock);
+        set(&mut view.exposure_stops, self.exposure);
+        set(&mut view.tolerance, self.tolerance);
+        if let Some(Shown(overlay)) = self.overlay {
+            settings.show(overlay);
+        }
+        settings.check()
     }
+}
+
+fn set<T>(value: &mut T, wanted: Option<T>) {
+    if let Some(wanted) = wanted {
+        *value = wanted;
+    }
+}
+
+/// An overlay or none, as a value of its own: clap takes an `Option` for an option that may be missing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Shown(Option<Overlay>);
+
+const OVERLAYS: [(&str, Shown); 7] = {
+    let names = Overlay::NAMES;
+    let mut overlays = [("none", Shown(None)); 7];
+    let mut i = 0;
+    while i < names.len() {
+        overlays[i] = (names[i].0, Shown(Some(names[i].1)));
+        i += 1;
+    }
+    overlays
+};
+
+/// One of these, by its name.
+fn one_of<T: Copy + Send + Sync + 'static>(
+    names: &'static [(&'static str, T)],
+) -> impl TypedValueParser<Value = T> {
+    let values = PossibleValuesParser::new(names.iter().map(|(name, _)| *name));
+    values.try_map(|text| {
+        names.iter().find(|(name, _)| *name == text).map(|(_, value)| *value).ok_or("no such name")
+    })
+}
+
+fn parse_vector(text: &str) -> Result<Vec3, String> {
+    let numbers: Result<Vec<f32>, _> = text.split(',').map(|number| number.trim().parse()).collect();
+    let vector = numbers.ok().and_then(|numbers| <[f32; 3]>::try_from(numbers).ok());
+    vector.map(Vec3::from_array).ok_or_else(|| "a place or direction is X,Y,Z, such as 0,1.5,-10".into())
 }
 
 fn parse_shutter(text: &str) -> Result<f32, String> {

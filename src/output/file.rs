@@ -1,7 +1,10 @@
 //! Picture files.
 
-use crate::error::Result;
+use super::Origin;
+use crate::error::{Error, Result};
 use crate::pending_file::{PendingFile, cannot_write};
+use crate::renderer::Renderer;
+use crate::settings::Settings;
 use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, WritableImage,
 };
@@ -28,12 +31,55 @@ impl PictureFormat {
     }
 }
 
-/// Writes an sRGB picture, given as r, g, b, a bytes row by row from the top left. The alpha is
-/// left out.
+/// Saves the picture that a renderer has by now: that of so many samples as it has, whatever it goes for. It goes
+/// for no more afterwards.
+///
+/// # Errors
+/// [`Error::UnknownFormat`], [`Error::OutOfRange`] while there is no whole pass yet, [`Error::Write`], or what
+/// Vulkan says.
+pub fn save(renderer: &mut Renderer, settings: &Settings, path: &Path) -> Result<()> {
+    let format = PictureFormat::of(path).ok_or_else(|| Error::UnknownFormat(path.to_path_buf()))?;
+    renderer.settle()?;
+    let samples = renderer.progress().samples;
+    if samples == 0 {
+        return Err(Error::OutOfRange(
+            "the picture has no sample in every pixel yet; save it in a moment".into(),
+        ));
+    }
+    let settings = Settings { samples, ..settings.clone() };
+    renderer.set(&settings)?;
+    renderer.set_blue_first(false);
+    write_picture(renderer, &settings, format, PendingFile::create(path)?)
+}
+
+/// Writes the picture that a renderer has, and the settings that it is of.
+///
+/// # Errors
+/// [`Error::Write`], or what Vulkan says.
+pub fn write_picture(
+    renderer: &mut Renderer,
+    settings: &Settings,
+    format: PictureFormat,
+    file: PendingFile,
+) -> Result<()> {
+    let (size, origin) = (settings.estimator.size, Origin::new(settings.arguments()));
+    match format {
+        PictureFormat::Png => write_png(file, size, &renderer.read_picture()?, Some(&origin)),
+        PictureFormat::Exr => write_exr(file, size, &renderer.read_film()?, Some(&origin)),
+    }
+}
+
+/// Writes an sRGB picture, given as r, g, b, a bytes row by row from the top left, and how it was made. The
+/// alpha is left out.
 ///
 /// # Errors
 /// [`crate::error::Error::Write`].
-pub fn write_png(file: PendingFile, [width, height]: [u32; 2], rgba: &[u8]) -> Result<()> {
+pub fn write_png(
+    file: PendingFile,
+    [width, height]: [u32; 2],
+    rgba: &[u8],
+    origin: Option<&Origin>,
+) -> Result<()> {
     let rgb: Vec<u8> = rgba.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
     let encode = || -> Result<Vec<u8>, png::EncodingError> {
         let mut bytes = Vec::new();
@@ -43,6 +89,9 @@ pub fn write_png(file: PendingFile, [width, height]: [u32; 2], rgba: &[u8]) -> R
         // from start to file; a picture with little noise grows by a seventh.
         encoder.set_compression(png::Compression::Fast);
         encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
+        if let Some(origin) = origin {
+            origin.add_to_png(&mut encoder)?;
+        }
         let mut writer = encoder.write_header()?;
         writer.write_image_data(&rgb)?;
         writer.finish()?;
@@ -53,19 +102,26 @@ pub fn write_png(file: PendingFile, [width, height]: [u32; 2], rgba: &[u8]) -> R
 }
 
 /// Writes the film, given as mean r, g, b and count row by row from the top left: linear f32
-/// channels R, G, B and count.
+/// channels R, G, B and count; and how it was made.
 ///
 /// # Errors
 /// [`crate::error::Error::Write`].
-pub fn write_exr(file: PendingFile, [width, height]: [u32; 2], film: &[[f32; 4]]) -> Result<()> {
+pub fn write_exr(
+    file: PendingFile,
+    [width, height]: [u32; 2],
+    film: &[[f32; 4]],
+    origin: Option<&Origin>,
+) -> Result<()> {
     let channel = |name: &str, index: usize| {
         let values = film.iter().map(|pixel| pixel[index]).collect();
         AnyChannel::new(name, FlatSamples::F32(values))
     };
     let channels = [channel("R", 0), channel("G", 1), channel("B", 2), channel("count", 3)];
+    let mut attributes = LayerAttributes::default();
+    attributes.other.extend(origin.map(Origin::attribute));
     let layer = Layer::new(
         (width as usize, height as usize),
-        LayerAttributes::default(),
+        attributes,
         Encoding::SMALL_LOSSLESS,
         AnyChannels::sort(channels.into_iter().collect()),
     );

@@ -1,7 +1,7 @@
 //! Renders settings to a file.
 
 use super::progress::ProgressDisplay;
-use super::{PictureFormat, Stats, say, write_exr, write_png};
+use super::{PictureFormat, Stats, say, write_picture};
 use crate::error::{Error, Result};
 use crate::pending_file::PendingFile;
 use crate::renderer::{Question, Renderer};
@@ -47,9 +47,10 @@ pub fn render(job: &Job) -> Result<()> {
 ///
 /// # Errors
 /// As [`render`].
-pub fn render_instead(settings: Settings, scene: &str, device: DeviceChoice, why: &str) -> Result<()> {
+pub fn render_instead(settings: Settings, device: DeviceChoice, why: &str) -> Result<()> {
     eprintln!("no display for the viewer ({why}); rendering the scene to a file instead");
     let output = std::env::current_dir().unwrap_or_default().join("thinlens.png");
+    let scene = settings.estimator.scene.source.clone();
     render(&Job { settings, autofocus: None, output: output.clone(), stats: None, device, quiet: false })?;
     say(&format!("the picture is {}", output.display()))?;
     let program = std::env::args().next().unwrap_or_else(|| "thinlens".into());
@@ -84,7 +85,7 @@ fn render_on(instance: &Arc<Instance>, job: &Job, format: PictureFormat) -> Resu
     let stats_output = job.stats.as_deref().map(PendingFile::create).transpose()?;
     let device = Device::open(instance, job.device.device.as_deref(), None)?;
     device.keep_pipelines();
-    let size @ [width, height] = job.settings.estimator.size;
+    let [width, height] = job.settings.estimator.size;
     let mut renderer = Renderer::new(&device)?;
     renderer.set(&job.settings)?;
     let settings = match job.autofocus {
@@ -98,10 +99,7 @@ fn render_on(instance: &Arc<Instance>, job: &Job, format: PictureFormat) -> Resu
     renderer.render(|progress| display.show(progress.samples, progress.traced))?;
     let seconds = display.finish().as_secs_f64();
 
-    match format {
-        PictureFormat::Png => write_png(output, size, &renderer.read_picture()?)?,
-        PictureFormat::Exr => write_exr(output, size, &renderer.read_film()?)?,
-    }
+    write_picture(&mut renderer, &settings, format, output)?;
     let progress = renderer.progress();
     let stats = Stats {
         scene: settings.estimator.scene.name.clone(),

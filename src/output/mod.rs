@@ -3,12 +3,14 @@
 mod file;
 mod headless;
 mod list;
+mod origin;
 mod progress;
 mod stats;
 
-pub use file::{PictureFormat, write_exr, write_png};
+pub use file::{PictureFormat, save, write_exr, write_picture, write_png};
 pub use headless::{Job, render, render_instead};
 pub use list::{list_devices, list_scenes};
+pub use origin::Origin;
 pub use progress::{load, loading_line};
 pub use stats::Stats;
 

@@ -1,6 +1,7 @@
 //! Rendering without a window, and reading the images back.
 
 use super::film::Film;
+use super::schedule::Stage;
 use super::{Pace, Progress, Renderer};
 use crate::error::Result;
 use crate::vulkan::{Buffer, Commands, Image, Recording, Residence};
@@ -52,6 +53,26 @@ impl Renderer {
     /// [`crate::error::Error::Memory`], or what Vulkan says.
     pub fn read_picture(&mut self) -> Result<Vec<u8>> {
         self.read_image(|film| &film.picture, Self::record_resolve)
+    }
+
+    /// Ends the merging under way, if any, so that all pixels of the film have the samples of whole passes.
+    ///
+    /// # Errors
+    /// What Vulkan says.
+    pub fn settle(&mut self) -> Result<()> {
+        let Some(estimator) = self.settings.as_ref().map(|settings| settings.estimator.clone()) else {
+            return Ok(());
+        };
+        let mut commands = Commands::new(&self.device)?;
+        let mut recording = commands.begin()?;
+        recording.barrier();
+        while let Some(cursor) = self.cursor.filter(|cursor| cursor.stage == Stage::Accumulate) {
+            if self.record_tile(&mut recording, &estimator, cursor, u64::MAX, true).is_none() {
+                break;
+            }
+        }
+        recording.submit()?;
+        commands.wait()
     }
 
     /// A copy of the picture as it is now, which outlives it.

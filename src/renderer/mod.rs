@@ -28,7 +28,7 @@ use crate::vulkan::{BindingSet, Buffer, Device, FRAMES_IN_FLIGHT, Image, Recordi
 use depth::Seen;
 use film::Film;
 use pick::Asked;
-use schedule::{Cursor, MAX_BATCH, reach};
+use schedule::{Cursor, MAX_BATCH, Stage, reach};
 use std::sync::Arc;
 use std::time::Duration;
 use tally::Tally;
@@ -204,6 +204,9 @@ impl Renderer {
             self.trace_bindings = Some([bind(0)?, bind(1)?]);
             restart = true;
         }
+        let too_far = |cursor: &Cursor| cursor.pass.end() > settings.samples;
+        // What is half merged can neither be taken back nor be merged again.
+        restart |= self.cursor.is_some_and(|cursor| too_far(&cursor) && cursor.stage == Stage::Accumulate);
         if restart {
             self.samples = 0;
             self.cursor = None;
@@ -213,7 +216,7 @@ impl Renderer {
             self.resolved = None;
             self.tally.restart();
         }
-        if self.cursor.is_some_and(|cursor| cursor.pass.end() > settings.samples) {
+        if self.cursor.as_ref().is_some_and(too_far) {
             self.cursor = None;
         }
         self.settings = Some(settings.clone());

@@ -84,7 +84,7 @@ impl Renderer {
     }
 
     /// Records a tile of the pass under way, for about `left` units of work, or `whole`.
-    fn record_tile(
+    pub(super) fn record_tile(
         &mut self,
         recording: &mut Recording<'_>,
         estimator: &Estimator,

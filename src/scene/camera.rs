@@ -29,6 +29,12 @@ pub enum CameraModel {
     Hole,
 }
 
+impl CameraModel {
+    /// Every model, by its name.
+    pub const NAMES: [(&'static str, Self); 3] =
+        [("thin-lens", Self::ThinLens), ("pinhole", Self::Pinhole), ("hole", Self::Hole)];
+}
+
 /// The thin lens: Suffern, chapter 10. Lengths are in scene units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lens {
@@ -60,6 +66,14 @@ impl Camera {
         let w = (self.eye - self.look_at).as_dvec3().normalize();
         let u = self.up.as_dvec3().cross(w).normalize();
         Frame { world_from_camera: DMat3::from_cols(u, w.cross(u), w) }
+    }
+
+    /// The field of view in degrees: such that the same radians come of it again, to the bit, where they came
+    /// of degrees.
+    pub fn vfov_degrees(&self) -> f64 {
+        let degrees = self.vfov_radians.to_degrees();
+        let near = [degrees, degrees.next_up(), degrees.next_down()];
+        near.into_iter().find(|degrees| degrees.to_radians() == self.vfov_radians).unwrap_or(degrees)
     }
 
     /// `k`: the distance of the view plane in pixels, for a picture of this height.

@@ -20,6 +20,12 @@ pub(super) struct Fault {
 /// [`Error::UnknownScene`] with near names, [`Error::Read`], [`Error::Scene`] with file and line, or
 /// [`Error::Mesh`].
 pub fn load(scene: &str) -> Result<Scene> {
+    let mut loaded = load_named(scene)?;
+    scene.clone_into(&mut loaded.source);
+    Ok(loaded)
+}
+
+fn load_named(scene: &str) -> Result<Scene> {
     if let Some(builtin) = BUILTINS.iter().find(|builtin| builtin.name == scene) {
         return parse(builtin.name, builtin.name, builtin.toml);
     }

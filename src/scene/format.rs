@@ -211,6 +211,7 @@ impl SceneFile {
 
         let mut scene = Scene {
             name: name.to_owned(),
+            source: String::new(),
             camera,
             model,
             lens,

@@ -46,6 +46,8 @@ pub const VFOV_DEGREES: std::ops::RangeInclusive<f64> = 0.01..=175.0;
 pub struct Scene {
     /// The built-in's name, or the file's.
     pub name: String,
+    /// As it was named to [`load`]: a built-in, or a path.
+    pub source: String,
     /// Where the picture is taken from.
     pub camera: Camera,
     /// What forms the picture.

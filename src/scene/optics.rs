@@ -13,7 +13,8 @@ pub const FRAME_HEIGHT_MM: f64 = 2.0 * HALF_FRAME_MM;
 
 /// The vertical field of view, in radians, of a lens of this focal length that is focused at infinity.
 pub fn vfov_of_focal_length(millimetres: f64) -> f64 {
-    2.0 * (HALF_FRAME_MM / millimetres).atan()
+    // By way of degrees, so that there are degrees that it comes of.
+    (2.0 * (HALF_FRAME_MM / millimetres).atan()).to_degrees().to_radians()
 }
 
 impl Camera {

@@ -54,6 +54,7 @@ pub(super) fn around(mesh: &Mesh, name: &str) -> Result<Scene> {
     let camera = camera(DVec3::Y * (lowest + 0.5 * extent.y), 0.5 * extent);
     let mut scene = Scene {
         name: name.to_owned(),
+        source: String::new(),
         camera,
         model: CameraModel::default(),
         lens: Lens { diameter: 0.0, focal_distance: 1.0 },

@@ -1,5 +1,6 @@
 //! Everything a user can set, in the two halves that decide when the film starts anew.
 
+mod arguments;
 mod preset;
 
 pub use preset::{PRESETS, Preset};
@@ -7,6 +8,7 @@ pub use preset::{PRESETS, Preset};
 use crate::error::{Error, Result};
 use crate::scene::{
     Aperture, Camera, CameraModel, Hole, Lens, MAX_BOUNCES, MAX_EXTENT, MAX_LENGTH, MIN_LENGTH, SceneRef,
+    VFOV_DEGREES,
 };
 use std::ops::RangeInclusive;
 
@@ -140,6 +142,12 @@ pub enum Sampler {
     BlueNoise,
 }
 
+impl Sampler {
+    /// Every sampler, by its name.
+    pub const NAMES: [(&'static str, Self); 3] =
+        [("blue-noise", Self::BlueNoise), ("sobol", Self::Sobol), ("random", Self::Random)];
+}
+
 /// Whatever changes only how the film is shown.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
@@ -173,6 +181,16 @@ pub enum Overlay {
 }
 
 impl Overlay {
+    /// Every overlay, by its name.
+    pub const NAMES: [(&'static str, Self); 6] = [
+        ("focus-peaking", Self::FocusPeaking),
+        ("focal-plane", Self::FocalPlane),
+        ("circle-of-confusion", Self::Blur),
+        ("depth", Self::Depth),
+        ("count", Self::Count),
+        ("error", Self::Error),
+    ];
+
     /// Whether it needs the depth of each pixel.
     pub fn shows_depth(self) -> bool {
         !matches!(self, Self::Count | Self::Error)
@@ -204,6 +222,14 @@ impl Settings {
             view,
             samples: DEFAULT_SAMPLES,
         }
+    }
+
+    /// What the scene was composed for, as it is sampled here.
+    pub fn of_scene_alone(&self) -> Self {
+        let mut settings = Self::of_scene(self.estimator.scene.clone());
+        settings.estimator.size = self.estimator.size;
+        settings.samples = self.samples;
+        settings
     }
 
     /// Shows an overlay, or none. An error needs moments, which the film then keeps from its start.
@@ -246,6 +272,22 @@ impl Settings {
         self.view.exposure_stops.exp2() * light as f32
     }
 
+    fn check_camera(&self) -> Result<()> {
+        let camera = &self.estimator.camera;
+        for (name, vector) in [("eye", camera.eye), ("look-at", camera.look_at), ("up", camera.up)] {
+            for part in vector.to_array() {
+                in_range(name, part, -MAX_LENGTH, MAX_LENGTH)?;
+            }
+        }
+        in_range("vfov", camera.vfov_radians.to_degrees(), *VFOV_DEGREES.start(), *VFOV_DEGREES.end())?;
+        let unit = camera.metres_per_unit;
+        in_range("metres-per-unit", unit, f64::from(MIN_LENGTH), f64::from(MAX_LENGTH))?;
+        match camera.fault() {
+            Some(fault) => Err(Error::OutOfRange(format!("the camera has no view: {fault}"))),
+            None => Ok(()),
+        }
+    }
+
     /// Holds every number against its range.
     ///
     /// # Errors
@@ -257,6 +299,7 @@ impl Settings {
         let Estimator { lens, hole, size, jitter, max_bounces, noise_threshold, .. } = &self.estimator;
         in_range("size: width", size[0], 1, MAX_EXTENT)?;
         in_range("size: height", size[1], 1, MAX_EXTENT)?;
+        self.check_camera()?;
         in_range("lens-diameter", lens.diameter, 0.0, MAX_LENGTH)?;
         in_range("focal-distance", lens.focal_distance, MIN_LENGTH, MAX_LENGTH)?;
         in_range("hole-diameter", hole.diameter, 0.0, MAX_LENGTH)?;

@@ -3,6 +3,7 @@
 mod aperture;
 mod camera;
 mod compare;
+mod files;
 mod lens;
 mod light;
 mod numbers;
@@ -12,17 +13,25 @@ mod sampling;
 mod widgets;
 
 use super::diagram::Diagram;
+use super::memory::Memory;
+use super::{Options, Reopen};
 use crate::error::Error;
+use crate::output::{Origin, PictureFormat};
 use crate::renderer::{Picked, Progress};
 use crate::scene::{self, ApertureImage, BUILTINS, CameraModel, SceneRef};
 use crate::settings::{Settings, View};
 use compare::Held;
+use files::Files;
 use imgui::{Condition, SliderFlags, Ui};
 use optics::Optics;
+use std::path::Path;
 use widgets::{Layout, named, note_item, section, tooltip};
 
 /// The points slider goes this far, or as far as was asked for.
 const MAX_POINTS: u32 = 4096;
+
+/// Files that are offered again.
+const MOST_RECENT: usize = 8;
 
 /// How sliders go over several orders of magnitude.
 const LOGARITHMIC: SliderFlags = SliderFlags::from_bits_truncate(
@@ -42,15 +51,18 @@ pub(super) struct Panel {
     pub(super) settings: Settings,
     /// What Reset goes back to.
     initial: Settings,
-    /// What the renderer took last, and the name of its scene.
-    accepted: (Settings, String),
+    /// What the renderer took last.
+    accepted: Settings,
     max_points: u32,
     /// The last aperture that was an image.
     image: Option<ApertureImage>,
-    /// As named: a built-in or a file.
-    scene: String,
-    /// The choices: the built-ins, and the file that the viewer was opened with.
+    /// The choices: the built-ins, and what was opened.
     scenes: Vec<String>,
+    /// What was opened before, the latest first.
+    recent: Vec<String>,
+    files: Files,
+    /// Settings from the arguments that a picture carries.
+    reopen: Reopen,
     message: Option<String>,
     pub(super) optics: Optics,
     /// The picture that is held to compare with, if one is.
@@ -66,7 +78,6 @@ pub(super) struct Panel {
 pub(super) struct State {
     pub(super) settings: Settings,
     initial: Settings,
-    scene: String,
 }
 
 /// What the panel shows of the renderer.
@@ -107,25 +118,34 @@ pub(super) enum Action {
 }
 
 impl Panel {
-    pub(super) fn new(settings: Settings, scene: String) -> Self {
-        let mut scenes: Vec<String> = BUILTINS.iter().map(|builtin| builtin.name.to_owned()).collect();
-        if !scenes.contains(&scene) {
-            scenes.push(scene.clone());
-        }
-        Self {
-            initial: settings.clone(),
-            accepted: (settings.clone(), scene.clone()),
+    pub(super) fn new(options: &Options) -> Self {
+        let settings = options.settings.clone();
+        let mut panel = Self {
+            initial: options.initial.clone(),
+            accepted: settings.clone(),
             max_points: settings.samples.max(MAX_POINTS),
             image: settings.estimator.aperture.image.clone(),
             settings,
-            scene,
-            scenes,
-            message: None,
-            optics: Optics::default(),
+            scenes: BUILTINS.iter().map(|builtin| builtin.name.to_owned()).collect(),
+            recent: options.memory.recent.clone(),
+            files: Files::default(),
+            reopen: options.reopen,
+            message: options.message.clone(),
+            optics: Optics { open: options.memory.optics, ..Optics::default() },
             held: None,
             paused: false,
             keys: false,
             layout: Vec::new(),
+        };
+        panel.offer_scene();
+        panel
+    }
+
+    /// The scene is among the choices from now on.
+    fn offer_scene(&mut self) {
+        let source = &self.settings.estimator.scene.source;
+        if !self.scenes.contains(source) {
+            self.scenes.push(source.clone());
         }
     }
 
@@ -192,6 +212,9 @@ impl Panel {
                 section(ui, "Light", false, &mut layout, |layout| self.exposure(ui, layout));
                 section(ui, "Sampling", false, &mut layout, |layout| self.sampling(ui, layout));
                 section(ui, "View", false, &mut layout, |layout| self.view(ui, layout));
+                section(ui, "Files", false, &mut layout, |layout| {
+                    action = self.files(ui, layout).or(action);
+                });
                 section(ui, "Device", false, &mut layout, |_| sampling::device(ui, status));
             });
         self.divider(ui, &mut layout);
@@ -230,22 +253,33 @@ impl Panel {
         self.message = Some(message);
     }
 
+    /// What to remember of it.
+    pub(super) fn memory(&self) -> Memory {
+        let Settings { estimator, .. } = &self.settings;
+        Memory {
+            size: Some(estimator.size),
+            arguments: self.settings.arguments(),
+            recent: self.recent.clone(),
+            optics: self.optics.open,
+        }
+    }
+
     /// What undo and redo go back and forth between.
     pub(super) fn state(&self) -> State {
-        State { settings: self.settings.clone(), initial: self.initial.clone(), scene: self.scene.clone() }
+        State { settings: self.settings.clone(), initial: self.initial.clone() }
     }
 
     /// Puts a state back.
     pub(super) fn restore(&mut self, state: State) {
         let size = self.settings.estimator.size;
-        (self.settings, self.initial, self.scene) = (state.settings, state.initial, state.scene);
+        (self.settings, self.initial) = (state.settings, state.initial);
         self.settings.estimator.size = size;
     }
 
     /// The renderer took the settings.
     pub(super) fn accept(&mut self) {
-        if self.accepted.0 != self.settings {
-            self.accepted = (self.settings.clone(), self.scene.clone());
+        if self.accepted != self.settings {
+            self.accepted = self.settings.clone();
         }
     }
 
@@ -253,46 +287,68 @@ impl Panel {
     pub(super) fn refuse(&mut self, error: &Error) {
         self.message = Some(error.to_string());
         let size = self.settings.estimator.size;
-        (self.settings, self.scene) = self.accepted.clone();
+        self.settings = self.accepted.clone();
         self.settings.estimator.size = size;
     }
 
     fn scene_chooser(&mut self, ui: &Ui) {
         let mut chosen = None;
-        if let Some(_combo) = ui.begin_combo("##scene", &self.scene) {
+        if let Some(_combo) = ui.begin_combo("##scene", &self.settings.estimator.scene.source) {
             for name in &self.scenes {
-                if ui.selectable_config(name).selected(*name == self.scene).build() {
+                if ui.selectable_config(name).selected(*name == self.settings.estimator.scene.source).build()
+                {
                     chosen = Some(name.clone());
                 }
             }
         }
         if let Some(name) = chosen {
-            self.open(name);
+            self.open(&name);
         }
         if let Some(message) = &self.message {
             ui.text_wrapped(message);
         }
     }
 
-    fn open(&mut self, name: String) {
-        match scene::load(&name) {
-            Ok(loaded) => {
-                let mut settings = Settings::of_scene(SceneRef::new(loaded));
-                let (now, estimator) = (&self.settings, &mut settings.estimator);
-                estimator.size = now.estimator.size;
-                estimator.jitter = now.estimator.jitter;
-                (estimator.sampler, estimator.seed) = (now.estimator.sampler, now.estimator.seed);
-                estimator.noise_threshold = now.estimator.noise_threshold;
-                settings.samples = now.samples;
-                settings.view = View { iso: settings.view.iso, ..now.view };
-                settings.show(now.view.overlay);
-                self.initial = settings.clone();
+    /// Opens a scene, a mesh, or a picture with its settings; or says why not.
+    pub(super) fn open(&mut self, name: &str) {
+        let opened = match PictureFormat::of(Path::new(name)) {
+            Some(_) => Origin::read(Path::new(name)).and_then(|origin| (self.reopen)(&origin.arguments)),
+            None => scene::load(name).map(|loaded| self.with_scene(SceneRef::new(loaded))),
+        };
+        match opened {
+            Ok(mut settings) => {
+                settings.estimator.size = self.settings.estimator.size;
+                self.initial = Settings {
+                    samples: settings.samples,
+                    ..self.with_scene(settings.estimator.scene.clone())
+                };
+                self.max_points = self.max_points.max(settings.samples);
+                self.image = settings.estimator.aperture.image.clone().or(self.image.take());
                 self.settings = settings;
-                self.scene = name;
                 self.message = None;
+                self.offer_scene();
+                if !BUILTINS.iter().any(|builtin| builtin.name == name) {
+                    self.recent.retain(|known| known != name);
+                    self.recent.insert(0, name.to_owned());
+                    self.recent.truncate(MOST_RECENT);
+                }
             }
             Err(error) => self.message = Some(error.to_string()),
         }
+    }
+
+    /// Another scene's settings; how it is sampled and shown stays.
+    fn with_scene(&self, scene: SceneRef) -> Settings {
+        let mut settings = Settings::of_scene(scene);
+        let (now, estimator) = (&self.settings, &mut settings.estimator);
+        estimator.size = now.estimator.size;
+        estimator.jitter = now.estimator.jitter;
+        (estimator.sampler, estimator.seed) = (now.estimator.sampler, now.estimator.seed);
+        estimator.noise_threshold = now.estimator.noise_threshold;
+        settings.samples = now.samples;
+        settings.view = View { iso: settings.view.iso, ..now.view };
+        settings.show(now.view.overlay);
+        settings
     }
 
     fn shape(&mut self, ui: &Ui, layout: &mut Layout) {

@@ -38,7 +38,7 @@ pub(in crate::app) struct Optics {
     /// Of each fan, and samples in the front view.
     pub(in crate::app) rays: u32,
     /// How often as high things are drawn in the side and top view, where the lens is too narrow to see.
-    stretch: f32,
+    pub(in crate::app) stretch: f32,
 }
 
 impl Default for Optics {

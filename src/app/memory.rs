@@ -1,0 +1,54 @@
+//! What the viewer remembers from one time to the next.
+
+use etcetera::BaseStrategy;
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// What there was when the viewer was closed last.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Memory {
+    /// The window's size in physical pixels.
+    pub size: Option<[u32; 2]>,
+    /// The settings, as [`crate::settings::Settings::arguments`] gives them; none the first time.
+    pub arguments: Vec<String>,
+    /// Files that were opened, the latest first.
+    pub recent: Vec<String>,
+    /// Whether the optics were shown.
+    pub optics: bool,
+}
+
+impl Memory {
+    /// From the user's folder. Without one, or with a damaged file, there is nothing to remember.
+    pub fn load() -> Self {
+        let Some(path) = file("viewer.json") else {
+            return Self::default();
+        };
+        let Ok(text) = std::fs::read_to_string(&path) else {
+            return Self::default();
+        };
+        serde_json::from_str(&text).unwrap_or_else(|error| {
+            log::warn!("{}: {error}; starting as if for the first time", path.display());
+            Self::default()
+        })
+    }
+
+    /// To the user's folder, if there is one.
+    pub(super) fn save(&self) {
+        let Some(path) = file("viewer.json") else {
+            return;
+        };
+        let text = serde_json::to_string_pretty(self).expect("plain strings and numbers are JSON");
+        if let Err(error) = std::fs::write(&path, text) {
+            log::warn!("cannot write {}: {error}; the settings are not remembered", path.display());
+        }
+    }
+}
+
+/// A file of the viewer's own, in a folder that there is.
+pub(super) fn file(name: &str) -> Option<PathBuf> {
+    let folders = etcetera::base_strategy::choose_native_strategy().ok()?;
+    let folder = folders.state_dir().unwrap_or_else(|| folders.data_dir()).join("thinlens");
+    std::fs::create_dir_all(&folder).ok()?;
+    Some(folder.join(name))
+}

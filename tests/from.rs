@@ -1,0 +1,230 @@
+//! Pictures that carry how they were made, and are rendered again from it.
+
+mod common;
+
+use common::{decode_png, run};
+use std::path::Path;
+use thinlens::cli::settings_of_arguments;
+use thinlens::output::Origin;
+use thinlens::scene::{self, CameraModel, SceneRef};
+use thinlens::settings::{Overlay, Sampler, Settings};
+
+/// Every option that changes a picture, in groups that go together.
+const OPTIONS: [&[&str]; 8] = [
+    &["version-4", "-s", "40x30", "-n", "5"],
+    &[
+        "suffern-boxes",
+        "-s",
+        "40x30",
+        "-n",
+        "6",
+        "--f-number",
+        "1.7",
+        "--focal-distance",
+        "61.3",
+        "--seed",
+        "9",
+    ],
+    &[
+        "-s",
+        "40x30",
+        "-n",
+        "5",
+        "--preset",
+        "50mm-f1.2",
+        "--blades",
+        "7",
+        "--blade-rotation",
+        "11",
+        "--roundness",
+        "0.3",
+    ],
+    &[
+        "-s",
+        "40x30",
+        "-n",
+        "5",
+        "--camera",
+        "hole",
+        "--hole-diameter",
+        "0.07",
+        "--upright",
+        "--exposure-lock=false",
+    ],
+    &[
+        "-s",
+        "41x30",
+        "-n",
+        "5",
+        "--eye=-1.5,3,0.7",
+        "--look-at",
+        "0.1,1.4,-9",
+        "--up",
+        "0.2,1,0",
+        "--vfov",
+        "43.7",
+    ],
+    &[
+        "-s",
+        "40x30",
+        "-n",
+        "7",
+        "--anamorphic",
+        "1.7",
+        "--exposure=-0.7",
+        "--jitter",
+        "2.5",
+        "--sampler",
+        "sobol",
+    ],
+    &[
+        "-s",
+        "40x30",
+        "-n",
+        "5",
+        "--cats-eye",
+        "0.4",
+        "--max-bounces",
+        "1",
+        "--metres-per-unit",
+        "0.11",
+        "--overlay",
+        "depth",
+    ],
+    &[
+        "passing",
+        "-s",
+        "40x30",
+        "-n",
+        "70",
+        "--noise-threshold",
+        "0.05",
+        "--shutter",
+        "1/25",
+        "--iso",
+        "320",
+        "--tolerance",
+        "3",
+    ],
+];
+
+fn render(folder: &Path, arguments: &[&str], output: &str) -> Vec<u8> {
+    let outcome = run(folder, &[&["render", "--quiet", "-o", output], arguments].concat());
+    assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""), "{arguments:?}");
+    std::fs::read(folder.join(output)).expect("a picture")
+}
+
+/// Catches an option that a picture forgets, or that comes back with other digits: the same bytes must come out.
+#[test]
+fn a_picture_renders_again_from_its_file() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    let mut pixels = Vec::new();
+    for (options, format) in OPTIONS.into_iter().zip(["png", "exr"].into_iter().cycle()) {
+        let (first, second) = (format!("a.{format}"), format!("b.{format}"));
+        let saved = render(folder, options, &first);
+        let again = render(folder, &["--from", &first], &second);
+        assert!(saved == again, "{options:?}: another picture comes of {first}");
+        pixels.push(saved);
+    }
+    pixels.dedup();
+    assert_eq!(pixels.len(), OPTIONS.len(), "some options change nothing");
+}
+
+/// Catches other options that do not win over the picture's, or that lose the rest of them.
+#[test]
+fn other_options_change_what_a_picture_says() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    let of = |options: &[&str], output: &str| decode_png(&render(folder, options, output));
+    of(
+        &["-s", "40x30", "-n", "5", "--f-number", "2", "--seed", "3", "--upright", "--overlay", "count"],
+        "a.png",
+    );
+    let expected = of(&["-s", "40x30", "-n", "9", "--f-number", "8", "--seed", "3"], "b.png");
+    let changed = of(&["--from", "a.png", "-n", "9", "--f-number", "8", "--overlay", "none"], "c.png");
+    assert!(changed == expected, "options do not change what the picture says");
+
+    for (arguments, message) in [
+        (&["--from", "a.png", "version-4"][..], "cannot be used with"),
+        (&["--from", "none.png"], "cannot read none.png"),
+        (&["--from", "a.txt"], "neither"),
+        (&["--from", "plain.png"], "cannot be rendered again"),
+    ] {
+        let plain = std::fs::File::create(folder.join("plain.png")).expect("a file");
+        let mut encoder = png::Encoder::new(plain, 1, 1);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.write_header().expect("a header").write_image_data(&[0; 3]).expect("a pixel");
+        let outcome = run(folder, &[&["render", "-o", "d.png"], arguments].concat());
+        assert!(outcome.code != 0 && outcome.stderr.contains(message), "{arguments:?}: {}", outcome.stderr);
+        assert!(!folder.join("d.png").exists(), "{arguments:?} leaves a picture");
+    }
+}
+
+/// Catches a setting without an argument, and numbers that lose their last digits on the way.
+#[test]
+fn arguments_give_the_same_settings_to_the_bit() {
+    let scene = SceneRef::new(scene::load("version-4").expect("a built-in scene"));
+    let mut random = fastrand::Rng::with_seed(7);
+    for _ in 0..200 {
+        let mut settings = Settings::of_scene(scene.clone());
+        let (estimator, view) = (&mut settings.estimator, &mut settings.view);
+        let mut part = |low: f32, high: f32| low + random.f32() * (high - low);
+        estimator.camera.eye = glam::vec3(part(-9.0, 9.0), part(1.0, 5.0), part(-1.0, 9.0));
+        estimator.camera.look_at = glam::vec3(part(-1.0, 1.0), part(1.0, 5.0), part(-19.0, -9.0));
+        estimator.camera.up.x = part(-0.5, 0.5);
+        estimator.camera.vfov_radians = (f64::from(part(5.0, 140.0)) / 1.01).to_radians();
+        estimator.camera.metres_per_unit = f64::from(part(0.01, 3.0)) / 3.0;
+        estimator.model = CameraModel::NAMES[part(0.0, 2.99) as usize].1;
+        estimator.lens.diameter = part(0.0, 2.0);
+        estimator.lens.focal_distance = part(0.1, 99.0);
+        estimator.hole.diameter = part(0.0, 0.2);
+        estimator.hole.upright = part(0.0, 1.0) > 0.5;
+        estimator.aperture.blades = 3 + part(0.0, 13.0) as u32;
+        estimator.aperture.rotation_degrees = part(-180.0, 180.0);
+        estimator.aperture.roundness = part(0.0, 1.0);
+        estimator.aperture.anamorphic = part(0.2, 5.0);
+        estimator.shutter = part(0.001, 2.0);
+        estimator.size = [part(1.0, 999.0) as u32, part(1.0, 999.0) as u32];
+        estimator.jitter = part(0.0, 9.0);
+        estimator.max_bounces = part(0.0, 9.0) as u32;
+        estimator.sampler = Sampler::NAMES[part(0.0, 2.99) as usize].1;
+        estimator.seed = part(0.0, 1e6) as u32;
+        estimator.noise_threshold = part(0.0, 0.1);
+        view.exposure_stops = part(-5.0, 5.0);
+        view.iso = part(20.0, 3000.0);
+        view.exposure_lock = part(0.0, 1.0) > 0.5;
+        view.tolerance = part(0.1, 9.0);
+        let overlay = Overlay::NAMES[part(0.0, 5.99) as usize].1;
+        settings.samples = part(1.0, 999.0) as u32;
+        settings.show(Some(overlay));
+        settings.check().expect("settings that there can be");
+
+        let arguments = settings.arguments();
+        let mut again = settings_of_arguments(&arguments).expect("settings");
+        // Scenes are equal where they are the same loading.
+        again.estimator.scene = scene.clone();
+        assert_eq!(again, settings, "{arguments:?}");
+    }
+}
+
+/// Catches names that a file's text or a shell would spoil.
+#[test]
+fn names_with_spaces_quotes_and_umlauts_come_back() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    let name = "it's a scène \u{1f600}.toml";
+    let text = include_str!("../src/scene/builtin/suffern-boxes.toml");
+    std::fs::write(folder.join(name), text).expect("a scene");
+    for format in ["png", "exr"] {
+        let output = format!("a.{format}");
+        render(folder, &[name, "-s", "20x15", "-n", "1"], &output);
+        let origin = Origin::read(&folder.join(&output)).expect("how it was made");
+        assert_eq!(origin.arguments[0], name);
+    }
+    let scene = scene::load(&folder.join(name).display().to_string()).expect("a scene");
+    let line = Settings::of_scene(SceneRef::new(scene)).command_line("a.png");
+    let echoed = std::process::Command::new("sh").args(["-c", &format!("printf '%s\\n' {line}")]).output();
+    let words = String::from_utf8(echoed.expect("a shell").stdout).expect("text");
+    assert!(words.lines().nth(2).expect("three words").ends_with(name), "{words}");
+}
