@@ -4,9 +4,11 @@ use super::{CACHE, decode_png, render_png};
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
+use tempfile::TempDir;
 use x11rb::connection::Connection;
 use x11rb::protocol::xproto::{ClientMessageEvent, ConnectionExt, EventMask, ImageFormat, Window};
 use x11rb::rust_connection::RustConnection;
@@ -35,11 +37,18 @@ pub struct Viewer {
     pub shown: RefCell<(u32, u32)>,
     /// Lens diameter, focal distance and jitter.
     pub state: RefCell<[f32; 3]>,
+    /// Lens centre, and what the camera looks at.
+    pub camera: RefCell<[f32; 6]>,
     /// Camera model, field of view in degrees, blades, cat's eye.
     pub view: RefCell<String>,
+    /// The pixel whose optics were drawn last, and p there: right, up, depth.
+    pub diagram: RefCell<Option<([f32; 2], [f64; 3])>>,
     /// All samples that were shown, since it was cleared last.
     pub history: RefCell<Vec<u32>>,
     pub display: String,
+    /// Where the viewer runs, and what it remembers.
+    pub folder: PathBuf,
+    _folder: Option<TempDir>,
     connection: RustConnection,
     root: Window,
     pub size: [u16; 2],
@@ -54,6 +63,16 @@ impl Viewer {
 
     /// Likewise, with no more checks than a user has.
     pub fn start_as_user(size: [u16; 2], arguments: &[&str]) -> Self {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let size_argument = format!("{}x{}", size[0], size[1]);
+        let mut viewer =
+            Self::start_in(folder.path(), size, &[&["--size", &size_argument], arguments].concat());
+        viewer._folder = Some(folder);
+        viewer
+    }
+
+    /// Likewise, in this folder, whose window must come out in this size.
+    pub fn start_in(folder: &Path, size: [u16; 2], arguments: &[&str]) -> Self {
         let mut server = Command::new("Xvfb")
             .args(["-displayfd", "1", "-screen", "0", "1280x1024x24", "-nolisten", "tcp"])
             .stdout(Stdio::piped())
@@ -67,9 +86,11 @@ impl Viewer {
         let display = format!(":{}", number.trim());
 
         let mut program = Command::new(env!("CARGO_BIN_EXE_thinlens"))
-            .args(["view", "--size", &format!("{}x{}", size[0], size[1])])
+            .arg("view")
             .args(arguments)
+            .current_dir(folder)
             .env("DISPLAY", &display)
+            .env("XDG_STATE_HOME", folder)
             .env("XDG_CACHE_HOME", CACHE)
             .env_remove("WAYLAND_DISPLAY")
             .env_remove("WAYLAND_SOCKET")
@@ -95,9 +116,13 @@ impl Viewer {
             controls: RefCell::default(),
             shown: RefCell::default(),
             state: RefCell::default(),
+            camera: RefCell::default(),
             view: RefCell::default(),
+            diagram: RefCell::default(),
             history: RefCell::default(),
             display,
+            folder: folder.to_path_buf(),
+            _folder: None,
             connection,
             root,
             size,
@@ -121,8 +146,17 @@ impl Viewer {
             self.controls.borrow_mut().insert(name.to_owned(), place.try_into().expect("four numbers"));
         }
         if let Some(state) = line.split("] lens ").nth(1) {
-            let numbers = state.split(' ').filter_map(|number| number.parse().ok());
-            *self.state.borrow_mut() = numbers.collect::<Vec<f32>>().try_into().expect("three numbers");
+            *self.state.borrow_mut() = numbers(state).try_into().expect("three numbers");
+        }
+        if let Some(camera) = line.split("] camera ").nth(1) {
+            *self.camera.borrow_mut() = numbers(camera).try_into().expect("six numbers");
+        }
+        if let Some(diagram) = line.split("diagram of [").nth(1) {
+            let (pixel, p) = diagram.split_once("]: p at [").expect("a pixel and p");
+            let pixel = numbers(&pixel.replace(',', "")).try_into().expect("two numbers");
+            let p =
+                numbers(p.trim_end_matches(']').replace(',', "").as_str()).try_into().expect("three numbers");
+            *self.diagram.borrow_mut() = Some((pixel, p));
         }
         if let Some(view) = line.split("] view ").nth(1) {
             view.clone_into(&mut self.view.borrow_mut());
@@ -156,6 +190,26 @@ impl Viewer {
         let status =
             Command::new("xdotool").args(arguments.split(' ')).env("DISPLAY", &self.display).status();
         assert!(status.expect("xdotool, which setup.sh installs").success(), "xdotool {arguments}");
+    }
+
+    /// Presses keys: without a window manager, the window has to be told that it is meant.
+    pub fn press(&self, keys: &str) {
+        self.xdotool(&format!("search --class thinlens windowfocus --sync key {keys}"));
+    }
+
+    /// Drags over the picture, a step at a time.
+    pub fn drag_picture(&self, button: u8, from: [i32; 2], to: [i32; 2]) {
+        let at = |step: i32| {
+            let [x, y] = [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * step / 4);
+            self.xdotool(&format!("mousemove {x} {y}"));
+            self.frames(2);
+        };
+        at(0);
+        self.xdotool(&format!("mousedown {button}"));
+        self.frames(2);
+        (1..=4).for_each(at);
+        self.xdotool(&format!("mouseup {button}"));
+        self.frames(2);
     }
 
     /// Drags a slider from its middle to this share of its width, a step at a time as a hand does.
@@ -292,6 +346,11 @@ impl Viewer {
         assert!(!log.iter().any(|line| line.contains("validation:")), "{log:#?}");
         assert!(status.success(), "{status}: {log:#?}");
     }
+}
+
+/// The numbers among the words of a line.
+fn numbers<T: std::str::FromStr>(line: &str) -> Vec<T> {
+    line.split(' ').filter_map(|number| number.parse().ok()).collect()
 }
 
 fn right_of_panel(pixels: &[[u8; 3]], width: usize) -> Vec<[u8; 3]> {

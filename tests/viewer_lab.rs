@@ -1,0 +1,326 @@
+//! The viewer under Xvfb: moving the camera, undoing, comparing, saving, and drawing the optics.
+
+mod common;
+
+use common::viewer::{Viewer, difference};
+use common::{decode_png, render_png, run};
+use std::process::Command;
+use std::time::Duration;
+use thinlens::scene;
+
+const SIZE: [u16; 2] = [800, 720];
+/// Columns right of the panel, and rows below the labels of a comparison.
+const LEFT: usize = 340;
+const TOP: usize = 60;
+
+/// A wide open picture of the scene, which is quick.
+const QUICK: [&str; 2] = ["-n", "2"];
+
+/// What `render` gives for these options, row by row.
+fn rendered(viewer: &Viewer, options: &[&str]) -> Vec<[u8; 3]> {
+    let size = format!("{}x{}", SIZE[0], SIZE[1]);
+    decode_png(&render_png(&viewer.folder, &[&["--size", &size], options].concat())).1
+}
+
+/// The pixels of some columns, below the labels.
+fn columns(picture: &[[u8; 3]], from: usize, to: usize) -> Vec<[u8; 3]> {
+    picture.chunks_exact(usize::from(SIZE[0])).skip(TOP).flat_map(|row| row[from..to].to_vec()).collect()
+}
+
+fn distance(camera: [f32; 6]) -> f32 {
+    (0..3).map(|axis| (camera[axis] - camera[axis + 3]).powi(2)).sum::<f32>().sqrt()
+}
+
+/// Catches a hand that turns the wrong thing, a camera that drifts from what it looks at, keys that do
+/// nothing, and a picture of another place than the numbers say.
+#[test]
+fn the_camera_follows_the_hand() {
+    let viewer = Viewer::start(SIZE, &QUICK);
+    viewer.wait_until_done();
+    let start = *viewer.camera.borrow();
+    let now = || *viewer.camera.borrow();
+
+    viewer.until("orbiting", |_| now() != start, || viewer.drag_picture(1, [600, 400], [520, 380]));
+    let turned = now();
+    assert_eq!(turned[3..], start[3..], "an orbit looks elsewhere");
+    assert!((distance(turned) / distance(start) - 1.0).abs() < 1e-4, "an orbit goes nearer or away");
+    assert!(turned[0] > start[0], "the scene does not follow a hand that goes left: {turned:?}");
+    viewer.wait_until_done();
+    let text = |numbers: &[f32]| format!("{},{},{}", numbers[0], numbers[1], numbers[2]);
+    let placed = [format!("--eye={}", text(&turned)), format!("--look-at={}", text(&turned[3..]))];
+    viewer.expect_picture("an orbit", 0, &["-n", "2", &placed[0], &placed[1]]);
+
+    viewer.until("panning", |_| now() != turned, || viewer.drag_picture(2, [600, 400], [600, 440]));
+    let panned = now();
+    let shift = |axis: usize| panned[axis] - turned[axis];
+    assert!(panned[4] > turned[4], "the scene does not follow a hand that goes down");
+    assert!((0..3).all(|axis| (shift(axis) - shift(axis + 3)).abs() < 1e-4), "a pan turns the camera");
+
+    let near = |viewer: &Viewer| {
+        let notches = (distance(*viewer.camera.borrow()) / distance(panned)).ln() / 0.9_f32.ln();
+        notches > 0.5 && (notches - notches.round()).abs() < 0.01
+    };
+    viewer.until("the wheel", near, || {
+        viewer.xdotool("mousemove 600 400");
+        viewer.xdotool("click 4");
+    });
+    let nearer = now();
+    assert_eq!(nearer[3..], panned[3..], "the wheel looks elsewhere");
+
+    let flown =
+        |viewer: &Viewer| distance(*viewer.camera.borrow()) > 0.0 && *viewer.camera.borrow() != nearer;
+    viewer.until("flying", flown, || {
+        viewer.xdotool("search --class thinlens windowfocus --sync keydown w");
+        viewer.frames(4);
+        viewer.xdotool("keyup w");
+    });
+    while viewer.listen(Duration::from_millis(300)).is_some() {}
+    let flown = now();
+    assert!(
+        (distance(flown) / distance(nearer) - 1.0).abs() < 1e-3,
+        "flight comes nearer to what it looks at"
+    );
+    let ahead: f32 =
+        (0..3).map(|axis| (flown[axis] - nearer[axis]) * (nearer[axis + 3] - nearer[axis])).sum();
+    assert!(ahead > 0.0, "W flies backwards");
+
+    viewer.until("Home", |_| now() == start, || viewer.press("Home"));
+    viewer.wait_until_done();
+    viewer.expect_picture("the scene's camera", 0, &QUICK);
+    viewer.close();
+}
+
+/// Catches a change that cannot be undone, one that is undone by halves, and an undo that another change
+/// leaves to be redone.
+#[test]
+fn changes_are_undone_and_made_again() {
+    let viewer = Viewer::start(SIZE, &QUICK);
+    viewer.wait_until_done();
+    let [diameter, focal_distance, _] = *viewer.state.borrow();
+    let camera = *viewer.camera.borrow();
+    viewer.drag("Lens diameter", &[0.125, 0.2, 0.3, 0.4], |viewer| viewer.state.borrow()[0] > 1.5 * diameter);
+    let wide = viewer.state.borrow()[0];
+    viewer.until(
+        "orbiting",
+        |viewer| *viewer.camera.borrow() != camera,
+        || {
+            viewer.drag_picture(1, [600, 400], [560, 400]);
+        },
+    );
+    let turned = *viewer.camera.borrow();
+
+    viewer.until("undo", |viewer| *viewer.camera.borrow() == camera, || viewer.press("ctrl+z"));
+    assert_eq!(viewer.state.borrow()[0], wide, "two changes at once");
+    viewer.until("undo", |viewer| viewer.state.borrow()[0] == diameter, || viewer.press("ctrl+z"));
+    viewer.until("redo", |viewer| viewer.state.borrow()[0] == wide, || viewer.press("ctrl+shift+z"));
+    viewer.until("redo", |viewer| *viewer.camera.borrow() == turned, || viewer.click_once("Redo"));
+    viewer.until("undo", |viewer| *viewer.camera.borrow() == camera, || viewer.click_once("Undo"));
+
+    // A new change takes the place of what was undone.
+    viewer.drag("Focal plane distance", &[0.5, 0.55, 0.6], |viewer| {
+        viewer.state.borrow()[1] > 1.1 * focal_distance
+    });
+    viewer.press("ctrl+y");
+    viewer.frames(2);
+    while viewer.listen(Duration::from_millis(300)).is_some() {}
+    assert_eq!(*viewer.camera.borrow(), camera, "what was undone before a change is made again");
+    viewer.close();
+}
+
+/// Catches sides that are swapped, a held picture that goes on, and a line that does not follow the hand.
+#[test]
+fn a_held_picture_stands_beside_the_live_one() {
+    let viewer = Viewer::start(SIZE, &["-n", "2", "--f-number", "2.8"]);
+    viewer.wait_until_done();
+    let has_line = |viewer: &Viewer| viewer.controls.borrow().contains_key("Divider");
+    viewer.until("comparing", has_line, || viewer.press("c"));
+    viewer.until(
+        "a pinhole",
+        |viewer| viewer.state.borrow()[0] == 0.0,
+        || {
+            viewer.drag("Lens diameter", &[0.09, 0.05, -0.2], |_| true);
+        },
+    );
+    viewer.wait_until_done();
+    let held = rendered(&viewer, &["-n", "2", "--f-number", "2.8"]);
+    let live = rendered(&viewer, &["-n", "2", "--lens-diameter", "0"]);
+    let agree = |line: usize| {
+        let (from, to) = (line - 14, line + 14);
+        viewer.wait_for("both sides", |viewer| {
+            let shown = viewer.screen([0, 0], SIZE);
+            columns(&shown, LEFT, from) == columns(&held, LEFT, from)
+                && columns(&shown, to, 800) == columns(&live, to, 800)
+        });
+    };
+    let line = |viewer: &Viewer| {
+        let [x, _, width, _] = viewer.controls.borrow()["Divider"];
+        (x + width / 2) as usize
+    };
+    let before = line(&viewer);
+    agree(before);
+    assert!(difference(&columns(&held, LEFT, 800), &columns(&live, LEFT, 800)) > 50, "nothing to compare");
+    viewer.until(
+        "the line",
+        |viewer| line(viewer) > before + 50,
+        || {
+            viewer.drag_picture(1, [line(&viewer) as i32, 300], [line(&viewer) as i32 + 80, 300]);
+        },
+    );
+    agree(line(&viewer));
+
+    viewer.press("c");
+    viewer.wait_for("only the live picture", |viewer| {
+        columns(&viewer.screen([0, 0], SIZE), LEFT, 800) == columns(&live, LEFT, 800)
+    });
+    viewer.close();
+}
+
+/// Catches a picture that is saved otherwise than it is shown, with another number of samples, in the window's
+/// byte order, or with settings that render another one; and a command line that does.
+#[test]
+fn what_is_saved_renders_again() {
+    let viewer = Viewer::start(SIZE, &["suffern-mirror", "-n", "5"]);
+    viewer.wait_until_done();
+    let start = *viewer.camera.borrow();
+    viewer.until(
+        "orbiting",
+        |viewer| *viewer.camera.borrow() != start,
+        || {
+            viewer.drag_picture(1, [600, 400], [570, 410]);
+        },
+    );
+    viewer.drag("Lens diameter", &[0.125, 0.2, 0.25], |_| true);
+    viewer.wait_until_done();
+    let saved = viewer.folder.join("thinlens.png");
+    viewer.until("saving", |_| saved.exists(), || viewer.press("ctrl+s"));
+    let picture = decode_png(&std::fs::read(&saved).expect("a picture"));
+    let columns = |picture: &[[u8; 3]]| columns(picture, LEFT, 800);
+    assert!(columns(&picture.1) == columns(&viewer.screen([0, 0], SIZE)), "it is not what was shown");
+
+    let again = |arguments: &[&str]| {
+        let outcome = run(&viewer.folder, arguments);
+        assert_eq!(outcome.code, 0, "{}", outcome.stderr);
+        decode_png(&std::fs::read(viewer.folder.join("again.png")).expect("a picture"))
+    };
+    let from = again(&["render", "--from", "thinlens.png", "-q", "-o", "again.png"]);
+    assert!(from == picture, "another picture comes of it");
+
+    // The next one gets a name of its own.
+    let next = viewer.folder.join("thinlens-2.png");
+    viewer.until("saving", |_| next.exists(), || viewer.press("ctrl+s"));
+
+    viewer.press("ctrl+c");
+    let line = loop {
+        let line = viewer.listen(Duration::from_secs(20)).expect("it says what it copied");
+        if let Some((_, line)) = line.split_once("copied ") {
+            break line.to_owned();
+        }
+    };
+    let pasted = Command::new("xclip")
+        .args(["-o", "-selection", "clipboard"])
+        .env("DISPLAY", &viewer.display)
+        .output()
+        .expect("xclip, which setup.sh installs");
+    assert_eq!(String::from_utf8_lossy(&pasted.stdout), line, "the clipboard has something else");
+    let words = line.replace("thinlens render", "render -q").replace("picture.png", "again.png");
+    let copied = again(&words.split(' ').collect::<Vec<_>>());
+    assert!(copied == picture, "another picture comes of {line}");
+    viewer.close();
+}
+
+/// Catches a viewer that forgets, and one whose Reset goes back to what it remembers.
+#[test]
+fn the_next_time_everything_is_as_it_was() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let first =
+        Viewer::start_in(folder.path(), [760, 700], &["suffern-boxes", "-n", "2", "--size", "760x700"]);
+    first.wait_until_done();
+    let [diameter, ..] = *first.state.borrow();
+    first.drag("Lens diameter", &[0.125, 0.2, 0.3], |viewer| viewer.state.borrow()[0] > 1.2 * diameter);
+    first.wait_until_done();
+    let left = *first.state.borrow();
+    first.close();
+
+    let second = Viewer::start_in(folder.path(), [760, 700], &["--validation"]);
+    second.wait_until_done();
+    assert_eq!(*second.state.borrow(), left);
+    assert_eq!(*second.shown.borrow(), (2, 2));
+    let wide = left[0].to_string();
+    second.expect_picture("what was there", 0, &["suffern-boxes", "-n", "2", "--lens-diameter", &wide]);
+    second.click("Reset", |viewer| viewer.state.borrow()[0] == diameter);
+    second.close();
+
+    // What has gone meanwhile is said, and is no reason to stay away.
+    let memory = std::fs::read_to_string(folder.path().join("thinlens/viewer.json")).expect("a memory");
+    std::fs::write(folder.path().join("thinlens/viewer.json"), memory.replace("suffern-boxes", "gone.toml"))
+        .expect("a memory");
+    let third = Viewer::start_in(folder.path(), [760, 700], &["--validation"]);
+    let version_4 = scene::load("version-4").expect("a built-in scene");
+    third.wait_for("the default scene", |viewer| viewer.state.borrow()[0] == version_4.lens.diameter);
+    third.close();
+}
+
+/// Catches a drawing of another pixel than the one that was clicked, or of another lens.
+#[test]
+fn the_optics_are_those_of_the_pixel_that_was_clicked() {
+    let viewer = Viewer::start(SIZE, &QUICK);
+    viewer.wait_until_done();
+    viewer.click("Optics", |viewer| viewer.diagram.borrow().is_some());
+    let scene = scene::load("version-4").expect("a built-in scene");
+    let expect = |pixel: [f32; 2], focal_distance: f32| {
+        let half = (0.5 * scene.camera.vfov_radians).tan();
+        let [width, height] = SIZE.map(f64::from);
+        let [x, y] = pixel.map(f64::from);
+        let f = f64::from(focal_distance);
+        let p = [f * half * (2.0 * x - width) / height, f * half * (1.0 - 2.0 * y / height), f];
+        viewer.wait_for("the optics", |viewer| {
+            viewer.diagram.borrow().is_some_and(|(drawn, at)| {
+                drawn == pixel && (0..3).all(|axis| (at[axis] - p[axis]).abs() < 1e-4 * f)
+            })
+        });
+    };
+    expect([400.5, 360.5], scene.lens.focal_distance);
+    viewer.until(
+        "clicking",
+        |viewer| viewer.diagram.borrow().is_some_and(|(pixel, _)| pixel == [650.5, 201.5]),
+        || {
+            viewer.xdotool("mousemove 650 201");
+            viewer.frames(3);
+            viewer.xdotool("click 1");
+        },
+    );
+    viewer.drag("Focal plane distance", &[0.5, 0.55, 0.6], |viewer| {
+        viewer.state.borrow()[1] > 1.1 * scene.lens.focal_distance
+    });
+    expect([650.5, 201.5], viewer.state.borrow()[1]);
+    viewer.close();
+}
+
+/// Catches a pause that goes on, that shows nothing after a change, or that cannot be ended; and a list of keys
+/// that does not open and close.
+#[test]
+fn it_pauses_and_says_its_keys() {
+    let viewer = Viewer::start(SIZE, &["-n", "2048"]);
+    viewer.until("a pause", |viewer| viewer.controls.borrow().contains_key("Go on"), || viewer.press("p"));
+    while viewer.listen(Duration::from_millis(500)).is_some() {}
+    let (samples, _) = *viewer.shown.borrow();
+    assert!((1..2048).contains(&samples), "{samples} points");
+    assert!(viewer.listen(Duration::from_secs(1)).is_none(), "it works on");
+
+    // Another lens is shown with the least that shows it.
+    let [diameter, ..] = *viewer.state.borrow();
+    viewer.drag("Lens diameter", &[0.125, 0.2, 0.3], |viewer| viewer.state.borrow()[0] > 1.2 * diameter);
+    while viewer.listen(Duration::from_millis(500)).is_some() {}
+    let wide = viewer.state.borrow()[0].to_string();
+    let samples = viewer.shown.borrow().0.to_string();
+    viewer.expect_picture("a paused picture", 0, &["-n", &samples, "--lens-diameter", &wide]);
+
+    let before = viewer.picture();
+    viewer.until("keys", |viewer| difference(&viewer.picture(), &before) > 50, || viewer.press("question"));
+    viewer.until("no keys", |viewer| viewer.picture() == before, || viewer.press("F1"));
+    viewer.controls.borrow_mut().remove("Pause");
+    viewer.until("going on", |viewer| viewer.controls.borrow().contains_key("Pause"), || viewer.press("p"));
+    viewer.history.borrow_mut().clear();
+    viewer.wait_for("more points", |viewer| viewer.history.borrow().len() > 1);
+    viewer.close();
+}
