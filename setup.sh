@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what thinlens needs beyond Rust, and only what is missing: a C++ compiler (glslang and
 # imgui are built from source), the Vulkan loader, a software Vulkan device (lavapipe), the Khronos
-# validation layer, the X libraries that the window loads at run time, and Xvfb and xdotool for the
+# validation layer, the X libraries that the window loads at run time, and Xvfb, xdotool and xclip for the
 # viewer's tests. Does nothing the second time.
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -34,13 +34,13 @@ packages() {
     case "$1" in
         apt) printf '%s\n' g++ libvulkan1 mesa-vulkan-drivers vulkan-validationlayers \
             libx11-6 libx11-xcb1 libxcursor1 libxi6 libxrandr2 libxkbcommon0 libxkbcommon-x11-0 \
-            libwayland-client0 xvfb xdotool ;;
+            libwayland-client0 xvfb xdotool xclip ;;
         dnf) printf '%s\n' gcc-c++ vulkan-loader mesa-vulkan-drivers vulkan-validation-layers \
             libX11 libX11-xcb libXcursor libXi libXrandr libxkbcommon libxkbcommon-x11 \
-            libwayland-client xorg-x11-server-Xvfb xdotool ;;
+            libwayland-client xorg-x11-server-Xvfb xdotool xclip ;;
         pacman) printf '%s\n' gcc vulkan-icd-loader vulkan-swrast vulkan-validation-layers \
             libx11 libxcursor libxi libxrandr libxkbcommon libxkbcommon-x11 wayland \
-            xorg-server-xvfb xdotool ;;
+            xorg-server-xvfb xdotool xclip ;;
         brew) printf '%s\n' vulkan-loader molten-vk vulkan-validationlayers ;;
     esac
 }
@@ -79,7 +79,7 @@ elif command -v brew >/dev/null; then
     install_missing brew brew list
 else
     fail "no apt, dnf, pacman or brew here; install a C++ compiler, the Vulkan loader and a Vulkan 1.3 \
-driver, the Khronos validation layer, Xvfb and xdotool by hand"
+driver, the Khronos validation layer, Xvfb, xdotool and xclip by hand"
 fi
 
 needed=$(sed -n 's/^rust-version = "\(.*\)"/\1/p' Cargo.toml)

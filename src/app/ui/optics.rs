@@ -49,7 +49,7 @@ impl Default for Optics {
 
 /// Which way one looks at it.
 #[derive(Clone, Copy, PartialEq)]
-enum Side {
+enum View {
     /// From the right: depth to the right, up is up.
     Side,
     /// From above: depth to the right, right is down.
@@ -58,7 +58,7 @@ enum Side {
     Front,
 }
 
-impl Side {
+impl View {
     fn flat(self, point: DVec3) -> [f64; 2] {
         match self {
             Self::Side => [point.z, point.y],
@@ -122,9 +122,9 @@ impl Optics {
         let half = 0.5 * GAP;
         let corner = |x: f32, y: f32| [x, y];
         let side = Paper::new(&list, corner(left, top), corner(middle[0] - half, middle[1] - half));
-        self.scene_side(side, Side::Side, diagram);
+        self.scene_side(side, View::Side, diagram);
         let above = Paper::new(&list, corner(left, middle[1] + half), corner(middle[0] - half, bottom));
-        self.scene_side(above, Side::Top, diagram);
+        self.scene_side(above, View::Top, diagram);
         front(Paper::new(&list, corner(middle[0] + half, top), corner(right, middle[1] - half)), diagram);
         film_side(
             Paper::new(&list, corner(middle[0] + half, middle[1] + half), corner(right, bottom)),
@@ -135,10 +135,10 @@ impl Optics {
     }
 
     /// Lens, view plane and focal plane, the centre ray, and the fan of primary rays.
-    fn scene_side(&self, mut paper: Paper<'_>, side: Side, diagram: &Diagram) {
+    fn scene_side(&self, mut paper: Paper<'_>, side: View, diagram: &Diagram) {
         let (fan, half) = match side {
-            Side::Side => (&diagram.fan_up, diagram.half_picture[1]),
-            Side::Top | Side::Front => (&diagram.fan_across, diagram.half_picture[0]),
+            View::Side => (&diagram.fan_up, diagram.half_picture[1]),
+            View::Top | View::Front => (&diagram.fan_across, diagram.half_picture[0]),
         };
         let points = [Some(diagram.q), diagram.focus.map(|focus| focus.1), diagram.hit];
         let aside = points.into_iter().flatten().map(|point| side.flat(point)[1]);
@@ -170,7 +170,7 @@ impl Optics {
             if let Some((_, p)) = diagram.focus {
                 paper.dot(p, FOCUS, "p");
             }
-            paper.title(if side == Side::Side { "Side" } else { "Top" });
+            paper.title(if side == View::Side { "Side" } else { "Top" });
             paper.scale_bar();
             paper.foot(diagram.view_plane, "view plane", FAINT);
             if let Some((depth, _)) = diagram.focus {
@@ -187,9 +187,9 @@ fn front(mut paper: Paper<'_>, diagram: &Diagram) {
         from + (to - from) * (diagram.view_plane / (to - from).z.max(1e-9))
     };
     let radius = diagram.radius;
-    let points = [[radius, radius], [-radius, -radius], Side::Front.flat(diagram.q)];
+    let points = [[radius, radius], [-radius, -radius], View::Front.flat(diagram.q)];
     let bounds = [0, 1].map(|axis| around(&points.map(|point| point[axis])));
-    paper.fit(bounds, 1.0, Side::Front);
+    paper.fit(bounds, 1.0, View::Front);
     let list = paper.list;
     list.with_clip_rect_intersect(paper.min, paper.max, || {
         let [x, y] = diagram.half_picture;
@@ -227,7 +227,7 @@ fn film_side(mut paper: Paper<'_>, diagram: &Diagram) {
         .map(|point| point.y)
         .chain([image.p.y, diagram.radius, -diagram.radius])
         .collect();
-    paper.fit([[1.06 * end, 0.10 * v], around(&aside)], 1.0, Side::Side);
+    paper.fit([[1.06 * end, 0.10 * v], around(&aside)], 1.0, View::Side);
     let list = paper.list;
     list.with_clip_rect_intersect(paper.min, paper.max, || {
         paper.line([DVec3::new(0.0, 0.0, -2.0 * v), DVec3::new(0.0, 0.0, v)], FRAME, 1.0);
@@ -272,7 +272,7 @@ struct Paper<'a> {
     list: &'a DrawListMut<'a>,
     min: [f32; 2],
     max: [f32; 2],
-    side: Side,
+    side: View,
     /// Of the scene, in the middle of the rectangle.
     middle: [f64; 2],
     /// Points a scene unit.
@@ -284,11 +284,11 @@ impl<'a> Paper<'a> {
         let max = [max[0].max(min[0] + 1.0), max[1].max(min[1] + 1.0)];
         list.add_rect(min, max, PAPER).filled(true).rounding(3.0).build();
         list.add_rect(min, max, FRAME).rounding(3.0).build();
-        Self { list, min, max, side: Side::Side, middle: [0.0; 2], scale: [1.0; 2] }
+        Self { list, min, max, side: View::Side, middle: [0.0; 2], scale: [1.0; 2] }
     }
 
     /// Puts these bounds into the rectangle, as large as they go, and stretched as far as there is room.
-    fn fit(&mut self, bounds: [[f64; 2]; 2], stretch: f64, side: Side) {
+    fn fit(&mut self, bounds: [[f64; 2]; 2], stretch: f64, side: View) {
         let [width, height] = [0, 1].map(|axis| self.max[axis] - self.min[axis]);
         let room = [width, (height - HEAD - FOOT).max(1.0)].map(f64::from);
         let extent = bounds.map(|[low, high]| high - low);
