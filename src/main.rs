@@ -33,6 +33,14 @@ fn run(command: Command) -> Result<()> {
                 quiet,
             })
         }
+        Command::Sweep(args) => output::sweep(&output::SweepJob {
+            settings: output::load(args.quiet, || args.settings.of_file())?,
+            sweep: args.sweep(),
+            columns: args.columns,
+            output: args.output,
+            device: args.device.choice(),
+            quiet: args.quiet,
+        }),
         Command::Verify(args) => {
             output::say(&verify::run(&args.settings.of_proof()?, &args.device.choice())?)
         }

@@ -144,8 +144,8 @@ fn a_held_picture_stands_beside_the_live_one() {
     viewer.wait_until_done();
     let held = rendered(&viewer, &["-n", "2", "--f-number", "2.8"]);
     let live = rendered(&viewer, &["-n", "2", "--lens-diameter", "0"]);
-    let agree = |line: usize| {
-        let (from, to) = (line - 14, line + 14);
+    let agree = |line: u16| {
+        let (from, to) = (usize::from(line) - 14, usize::from(line) + 14);
         viewer.wait_for("both sides", |viewer| {
             let shown = viewer.screen([0, 0], SIZE);
             columns(&shown, LEFT, from) == columns(&held, LEFT, from)
@@ -154,7 +154,7 @@ fn a_held_picture_stands_beside_the_live_one() {
     };
     let line = |viewer: &Viewer| {
         let [x, _, width, _] = viewer.controls.borrow()["Divider"];
-        (x + width / 2) as usize
+        (x + width / 2) as u16
     };
     let before = line(&viewer);
     agree(before);
@@ -163,7 +163,8 @@ fn a_held_picture_stands_beside_the_live_one() {
         "the line",
         |viewer| line(viewer) > before + 50,
         || {
-            viewer.drag_picture(1, [line(&viewer) as i32, 300], [line(&viewer) as i32 + 80, 300]);
+            let x = i32::from(line(&viewer));
+            viewer.drag_picture(1, [x, 300], [x + 80, 300]);
         },
     );
     agree(line(&viewer));

@@ -4,10 +4,13 @@ mod settings;
 
 use crate::error::{Error, Result};
 use crate::scene::{self, BUILTINS, SceneRef};
-use crate::settings::{DEFAULT_SAMPLES, DeviceChoice, Place, Settings};
+use crate::settings::{DEFAULT_SAMPLES, DeviceChoice, Place, Settings, Sweep};
 use clap::{Args, Parser, Subcommand};
 pub use settings::SettingsArgs;
 use std::path::PathBuf;
+
+/// The lenses of a sweep, unless others are named: from clearly blurred to sharp.
+const SWEPT_F_NUMBERS: [f64; 4] = [2.8, 5.6, 11.0, 32.0];
 
 /// The command line.
 #[derive(Debug, Parser)]
@@ -20,6 +23,7 @@ use std::path::PathBuf;
         thinlens render -o picture.png                 the default scene to a file\n  \
         thinlens render -o sharp.png --lens-diameter 0 the same through a pinhole\n  \
         thinlens render suffern-boxes -o boxes.exr     linear values and sample counts\n  \
+        thinlens sweep -o sheet.png                    four f-numbers side by side\n  \
         thinlens render bunny.obj -o bunny.png         a mesh, on a ground, in focus"
 )]
 pub struct Cli {
@@ -35,6 +39,8 @@ pub enum Command {
     View(ViewArgs),
     /// Render a picture to a file, without a window
     Render(RenderArgs),
+    /// Render a sheet of pictures side by side: of several f-numbers, lens diameters or focal distances
+    Sweep(SweepArgs),
     /// Prove a device: hold what it renders against the same mathematics in f64, sample by sample
     Verify(VerifyArgs),
     /// Measure a device: throughput, first picture, and how the error falls, for every sampler
@@ -83,6 +89,39 @@ pub struct RenderArgs {
     /// Also write figures of the rendering, as JSON
     #[arg(long, value_name = "FILE.json")]
     pub stats: Option<PathBuf>,
+    /// On which device, and whether it is watched.
+    #[command(flatten)]
+    pub device: DeviceArgs,
+    /// Say nothing but warnings and errors
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// `thinlens sweep`.
+#[derive(Debug, Args)]
+#[command(
+    mut_arg("size", |size| size.help("Size of each picture in pixels [default: the scene's]")),
+)]
+pub struct SweepArgs {
+    /// What the pictures have in common. The brightness stays from one to the next, unless the exposure is not
+    /// locked.
+    #[command(flatten)]
+    pub settings: SettingsArgs,
+    /// Of which lenses, by f-number [default: 2.8,5.6,11,32]
+    #[arg(long, value_name = "N,N,...", value_delimiter = ',', num_args = 1, group = "swept")]
+    f_numbers: Vec<f64>,
+    /// Of which lenses, by diameter in scene units; 0 is a pinhole
+    #[arg(long, value_name = "L,L,...", value_delimiter = ',', num_args = 1, group = "swept")]
+    lens_diameters: Vec<f32>,
+    /// With which planes in focus, by distance in scene units
+    #[arg(long, value_name = "L,L,...", value_delimiter = ',', num_args = 1, group = "swept")]
+    focal_distances: Vec<f32>,
+    /// Pictures in a row [default: about as many as rows]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    pub columns: Option<u32>,
+    /// The sheet, 8-bit sRGB
+    #[arg(short, long, value_name = "OUT.png")]
+    pub output: PathBuf,
     /// On which device, and whether it is watched.
     #[command(flatten)]
     pub device: DeviceArgs,
@@ -170,6 +209,21 @@ impl DeviceArgs {
     /// As a plain value.
     pub fn choice(&self) -> DeviceChoice {
         DeviceChoice { device: self.device.clone(), validation: self.validation }
+    }
+}
+
+impl SweepArgs {
+    /// What the pictures differ in.
+    pub fn sweep(&self) -> Sweep {
+        if !self.lens_diameters.is_empty() {
+            Sweep::LensDiameters(self.lens_diameters.clone())
+        } else if !self.focal_distances.is_empty() {
+            Sweep::FocalDistances(self.focal_distances.clone())
+        } else if !self.f_numbers.is_empty() {
+            Sweep::FNumbers(self.f_numbers.clone())
+        } else {
+            Sweep::FNumbers(SWEPT_F_NUMBERS.to_vec())
+        }
     }
 }
 

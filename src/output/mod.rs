@@ -5,7 +5,9 @@ mod headless;
 mod list;
 mod origin;
 mod progress;
+mod sheet;
 mod stats;
+mod sweep;
 
 pub use file::{PictureFormat, save, write_exr, write_picture, write_png};
 pub use headless::{Job, render, render_instead};
@@ -13,6 +15,7 @@ pub use list::{list_devices, list_scenes};
 pub use origin::Origin;
 pub use progress::{load, loading_line};
 pub use stats::Stats;
+pub use sweep::{SweepJob, sweep};
 
 use crate::error::{Error, Result};
 use std::io::Write;

@@ -2,8 +2,10 @@
 
 mod arguments;
 mod preset;
+mod sweep;
 
 pub use preset::{PRESETS, Preset};
+pub use sweep::Sweep;
 
 use crate::error::{Error, Result};
 use crate::scene::{

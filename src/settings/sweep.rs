@@ -1,0 +1,86 @@
+//! One picture for each of several lenses.
+
+use super::Settings;
+use crate::error::{Error, Result};
+use crate::scene::{CameraModel, Lens};
+
+/// Pictures that one sheet can hold.
+const MOST: usize = 64;
+
+/// What changes from one picture to the next, and the values that it takes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Sweep {
+    /// The lens, by its f-number.
+    FNumbers(Vec<f64>),
+    /// The lens, by its diameter in scene units.
+    LensDiameters(Vec<f32>),
+    /// The plane in focus, by its distance in scene units.
+    FocalDistances(Vec<f32>),
+}
+
+impl Sweep {
+    /// The settings of each picture, in order: these, but for the one value.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for values out of range, too many of them, or a camera without a lens.
+    pub fn pictures(&self, settings: &Settings) -> Result<Vec<Settings>> {
+        if settings.estimator.model != CameraModel::ThinLens {
+            return Err(Error::OutOfRange(
+                "a sweep needs a lens, which this camera has not; add --camera thin-lens".into(),
+            ));
+        }
+        let picture = |change: &dyn Fn(&mut Settings) -> Result<()>| {
+            let mut settings = settings.clone();
+            change(&mut settings)?;
+            settings.check()?;
+            Ok(settings)
+        };
+        let lens = |change: fn(&mut Lens, f32)| {
+            move |value: &f32| {
+                picture(&|settings| {
+                    change(&mut settings.estimator.lens, *value);
+                    Ok(())
+                })
+            }
+        };
+        let pictures: Result<Vec<Settings>> = match self {
+            Self::FNumbers(values) => {
+                let stop = |value: &f64| picture(&|settings| settings.estimator.set_f_number(*value));
+                values.iter().map(stop).collect()
+            }
+            Self::LensDiameters(values) => {
+                values.iter().map(lens(|lens, value| lens.diameter = value)).collect()
+            }
+            Self::FocalDistances(values) => {
+                values.iter().map(lens(|lens, value| lens.focal_distance = value)).collect()
+            }
+        };
+        let pictures = pictures?;
+        if pictures.is_empty() || pictures.len() > MOST {
+            let count = pictures.len();
+            return Err(Error::OutOfRange(format!("a sheet has from 1 to {MOST} pictures, not {count}")));
+        }
+        Ok(pictures)
+    }
+
+    /// What to write under each picture: the value, and what else is worth knowing.
+    pub fn labels(&self, picture: &Settings) -> [String; 2] {
+        let lens = &picture.estimator.lens;
+        let f_number = picture.estimator.f_number();
+        let stop = if f_number.is_finite() { format!("f/{}", digits(f_number)) } else { "pinhole".into() };
+        let diameter = format!("lens diameter {}", digits(f64::from(lens.diameter)));
+        let plane = format!("focal plane at {}", digits(f64::from(lens.focal_distance)));
+        match self {
+            Self::FNumbers(_) => [stop, diameter],
+            Self::LensDiameters(_) => [diameter, stop],
+            Self::FocalDistances(_) => [plane, stop],
+        }
+    }
+}
+
+/// To three digits, without zeros at the end.
+fn digits(value: f64) -> String {
+    let places = if value == 0.0 { 0.0 } else { (2.0 - value.abs().log10().floor()).clamp(0.0, 12.0) };
+    let text = format!("{value:.*}", places as usize);
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').into() } else { text }
+}
