@@ -48,7 +48,6 @@ pub fn save(renderer: &mut Renderer, settings: &Settings, path: &Path) -> Result
     }
     let settings = Settings { samples, ..settings.clone() };
     renderer.set(&settings)?;
-    renderer.set_blue_first(false);
     write_picture(renderer, &settings, format, PendingFile::create(path)?)
 }
 

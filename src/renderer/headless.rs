@@ -52,7 +52,10 @@ impl Renderer {
     /// # Errors
     /// [`crate::error::Error::Memory`], or what Vulkan says.
     pub fn read_picture(&mut self) -> Result<Vec<u8>> {
-        self.read_image(|film| &film.picture, Self::record_resolve)
+        self.read_image(
+            |film| &film.picture,
+            |renderer, recording| renderer.record_resolve_as(recording, false),
+        )
     }
 
     /// Ends the merging under way, if any, so that all pixels of the film have the samples of whole passes.

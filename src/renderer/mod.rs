@@ -156,7 +156,7 @@ impl Renderer {
         self.max_batch = max_batch;
     }
 
-    /// Resolves to b, g, r, a bytes from now on, for a window that wants them, or to r, g, b, a.
+    /// Whether a window wants b, g, r, a bytes of [`Self::picture`] from now on, or r, g, b, a.
     pub fn set_blue_first(&mut self, blue_first: bool) {
         self.blue_first = blue_first;
     }
@@ -303,6 +303,10 @@ impl Renderer {
 
     /// Records the resolve pass, if the picture is not up to date.
     pub fn record_resolve(&mut self, recording: &mut Recording<'_>) {
+        self.record_resolve_as(recording, self.blue_first);
+    }
+
+    fn record_resolve_as(&mut self, recording: &mut Recording<'_>, blue_first: bool) {
         self.record_clear(recording, true);
         self.record_depth(recording);
         let (Some(settings), Some(film)) = (&self.settings, &self.film) else {
@@ -315,8 +319,7 @@ impl Renderer {
         let extent = settings.estimator.size;
         let exposure = settings.exposure();
         let overlay = OverlayScale::new(settings);
-        let blue_first = self.blue_first.into();
-        let push = ResolvePush { extent, preview_stride, exposure, overlay, blue_first };
+        let push = ResolvePush { extent, preview_stride, exposure, overlay, blue_first: blue_first.into() };
         // A cell of the preview at the picture's edge may have no texel of its own.
         let has_holes =
             preview_stride > 1 || reach(settings.estimator.jitter) > 0 || self.tally.saw_rejected_samples();
