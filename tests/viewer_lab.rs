@@ -206,13 +206,23 @@ fn what_is_saved_renders_again() {
     let from = again(&["render", "--from", "thinlens.png", "-q", "-o", "again.png"]);
     assert!(from == picture, "another picture comes of it");
 
-    // The next one gets a name of its own.
+    // The next one gets a name of its own. S that is let go after Ctrl does not fly.
     let next = viewer.folder.join("thinlens-2.png");
-    viewer.until("saving", |_| next.exists(), || viewer.press("ctrl+s"));
+    let placed = *viewer.camera.borrow();
+    viewer.until(
+        "saving",
+        |_| next.exists(),
+        || {
+            viewer.xdotool("search --class thinlens windowfocus --sync keydown ctrl keydown s keyup ctrl");
+            viewer.frames(6);
+            viewer.xdotool("keyup s");
+        },
+    );
+    assert_eq!(*viewer.camera.borrow(), placed, "Ctrl+S moves the camera");
 
     viewer.press("ctrl+c");
     let line = loop {
-        let line = viewer.listen(Duration::from_secs(20)).expect("it says what it copied");
+        let line = viewer.listen(Duration::from_secs(10)).expect("it says what it copied");
         if let Some((_, line)) = line.split_once("copied ") {
             break line.to_owned();
         }

@@ -2,6 +2,7 @@
 //! one to focus on; and the focal plane on its way there.
 
 use super::diagram::Diagram;
+use super::keys::Modifiers;
 use crate::renderer::{Picked, Question};
 use crate::scene::{Lens, MAX_LENGTH, MIN_LENGTH};
 use crate::settings::Estimator;
@@ -66,7 +67,7 @@ struct Mark {
 
 impl Focus {
     /// Takes in what mouse and keys did over the picture.
-    pub(super) fn take_input(&mut self, ui: &Ui, lens: &mut Lens, size: [u32; 2]) {
+    pub(super) fn take_input(&mut self, ui: &Ui, modifiers: Modifiers, lens: &mut Lens, size: [u32; 2]) {
         let io = ui.io();
         let over_picture = !io.want_capture_mouse && ui.is_mouse_pos_valid(io.mouse_pos);
         let scale = io.display_framebuffer_scale;
@@ -89,7 +90,7 @@ impl Focus {
         if ui.is_mouse_clicked(MouseButton::Right) || (ui.is_key_pressed(Key::F) && !io.want_text_input) {
             self.wanted = self.pointer;
         }
-        if io.key_ctrl && io.mouse_wheel != 0.0 {
+        if modifiers.ctrl && io.mouse_wheel != 0.0 {
             self.glide = None;
             let distance = lens.focal_distance * NUDGE.powf(io.mouse_wheel);
             lens.focal_distance = distance.clamp(MIN_LENGTH, MAX_LENGTH);

@@ -24,8 +24,28 @@ const LIST: [(&str, &str); 17] = [
     ("?, F1", "this list"),
 ];
 
+/// The keys that go with others. imgui has them as they are when a frame begins: where one goes up in the same
+/// frame in which its letter goes down, as with a quick hand and a slow frame, it would be missed.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Modifiers {
+    pub(super) ctrl: bool,
+    pub(super) shift: bool,
+    last: [bool; 2],
+}
+
+impl Modifiers {
+    /// Those of this frame: down in it, or at the last one.
+    pub(super) fn take(&mut self, ui: &Ui) -> Self {
+        let io = ui.io();
+        let now = [io.key_ctrl, io.key_shift];
+        let [ctrl, shift] = [0, 1].map(|key| now[key] || self.last[key]);
+        *self = Self { ctrl, shift, last: now };
+        *self
+    }
+}
+
 /// What was pressed, if it asks for something.
-pub(super) fn pressed(ui: &Ui) -> Option<Action> {
+pub(super) fn pressed(ui: &Ui, modifiers: Modifiers) -> Option<Action> {
     let io = ui.io();
     if io.want_text_input {
         return None;
@@ -35,15 +55,12 @@ pub(super) fn pressed(ui: &Ui) -> Option<Action> {
     if pressed(Key::F1) || io.peek_input_characters().contains('?') {
         return Some(Action::Keys);
     }
-    let chosen = if io.key_ctrl {
-        let undo = if io.key_shift { Action::Redo } else { Action::Undo };
-        let with_control = [
-            (Key::Z, undo),
-            (Key::Y, Action::Redo),
-            (Key::S, Action::SavePicture),
-            (Key::C, Action::CopyCommand),
-        ];
-        with_control.into_iter().find(|(key, _)| ui.is_key_pressed(*key))
+    let chosen = if modifiers.ctrl {
+        let undo = if modifiers.shift { Action::Redo } else { Action::Undo };
+        let again = [(Key::Z, undo), (Key::Y, Action::Redo)];
+        let once = [(Key::S, Action::SavePicture), (Key::C, Action::CopyCommand)];
+        let again = again.into_iter().find(|(key, _)| ui.is_key_pressed(*key));
+        again.or_else(|| once.into_iter().find(|(key, _)| pressed(*key)))
     } else {
         let plain = [
             (Key::O, Action::Optics),

@@ -1,5 +1,6 @@
 //! Moving the camera by mouse and keys: around what it looks at, along its axes, and back.
 
+use super::keys::Modifiers;
 use crate::scene::{Camera, MAX_LENGTH};
 use glam::{DQuat, DVec3};
 use imgui::{Key, MouseButton, Ui};
@@ -30,12 +31,14 @@ const FLYING: [(Key, [f64; 3]); 6] = [
 pub(super) struct Navigate {
     /// The button that is held, and whether it has become a drag.
     held: Option<(MouseButton, bool)>,
-    flying: bool,
+    /// Which keys of [`FLYING`] fly: those that went down alone. S that is still down after the Ctrl of Ctrl+S
+    /// does not.
+    flying: [bool; FLYING.len()],
 }
 
 impl Navigate {
     /// Moves the camera as mouse and keys say.
-    pub(super) fn take_input(&mut self, ui: &Ui, camera: &mut Camera) {
+    pub(super) fn take_input(&mut self, ui: &Ui, modifiers: Modifiers, camera: &mut Camera) {
         let io = ui.io();
         let over_picture = !io.want_capture_mouse;
         for button in [MouseButton::Left, MouseButton::Middle] {
@@ -49,7 +52,7 @@ impl Navigate {
                 *drags |= x.hypot(y) > STILL;
                 if *drags {
                     let [x, y] = [x, y].map(f64::from);
-                    if *button == MouseButton::Middle || io.key_shift {
+                    if *button == MouseButton::Middle || modifiers.shift {
                         pan(camera, [x, y], io.display_size[1]);
                     } else {
                         orbit(camera, [-TURN * x, -TURN * y]);
@@ -60,21 +63,26 @@ impl Navigate {
                 self.held = None;
             }
         }
-        if over_picture && io.mouse_wheel != 0.0 && !io.key_ctrl {
+        if over_picture && io.mouse_wheel != 0.0 && !modifiers.ctrl {
             dolly(camera, DOLLY.powf(f64::from(io.mouse_wheel)));
         }
-        let keys = !io.want_text_input && !io.key_ctrl && !io.key_alt;
-        let held = FLYING.iter().filter(|(key, _)| keys && ui.is_key_down(*key));
-        let way: DVec3 = held.map(|(_, way)| DVec3::from_array(*way)).sum();
-        self.flying = way != DVec3::ZERO;
-        if self.flying {
+        let keys = !io.want_text_input && !modifiers.ctrl && !io.key_alt;
+        let mut way = DVec3::ZERO;
+        for ((key, towards), flies) in FLYING.iter().zip(&mut self.flying) {
+            *flies |= ui.is_key_pressed_no_repeat(*key);
+            *flies &= keys && ui.is_key_down(*key);
+            if *flies {
+                way += DVec3::from_array(*towards);
+            }
+        }
+        if way != DVec3::ZERO {
             fly(camera, (way * FLIGHT * f64::from(io.delta_time.min(0.1))).to_array());
         }
     }
 
     /// Whether the camera is under way.
     pub(super) fn is_moving(&self) -> bool {
-        self.flying || self.held.is_some_and(|(_, drags)| drags)
+        self.flying.contains(&true) || self.held.is_some_and(|(_, drags)| drags)
     }
 }
 

@@ -5,6 +5,7 @@ use super::clipboard::Clipboard;
 use super::focus::Focus;
 use super::graphics::{Answer, Graphics};
 use super::history::History;
+use super::keys::Modifiers;
 use super::navigate::Navigate;
 use super::ui::{Action, Panel, State, Status};
 use super::{keys, memory};
@@ -47,6 +48,7 @@ struct Open {
     focus: Focus,
     navigate: Navigate,
     history: History<State>,
+    modifiers: Modifiers,
     window: Arc<Window>,
     last_frame: Instant,
     /// When the first event came that no frame has shown yet.
@@ -180,6 +182,7 @@ impl Open {
             panel,
             focus: Focus::default(),
             navigate: Navigate::default(),
+            modifiers: Modifiers::default(),
             window,
             last_frame: Instant::now(),
             unshown_since: None,
@@ -268,12 +271,13 @@ impl Open {
             picked: self.focus.under_pointer(),
             diagram: self.focus.diagram(),
         };
-        let action = self.panel.draw(ui, &status).or_else(|| keys::pressed(ui));
+        let modifiers = self.modifiers.take(ui);
+        let action = self.panel.draw(ui, &status).or_else(|| keys::pressed(ui, modifiers));
         keys::help(ui, &mut self.panel.keys);
         self.history.amend(|state| state.settings.estimator.size = size);
-        self.navigate.take_input(ui, &mut self.panel.settings.estimator.camera);
+        self.navigate.take_input(ui, modifiers, &mut self.panel.settings.estimator.camera);
         let lens = &mut self.panel.settings.estimator.lens;
-        self.focus.take_input(ui, lens, size);
+        self.focus.take_input(ui, modifiers, lens, size);
         self.focus.advance(lens);
         self.focus.draw(ui);
         if self.panel.optics.open {
