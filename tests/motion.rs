@@ -5,7 +5,7 @@ mod common;
 use anyhow::{Result, ensure};
 use common::scenes::EVERYTHING;
 use common::statistics::evenness_p;
-use common::{Gpu, pixels, prove, render, render_png, scene_of, settings_of};
+use common::{Gpu, decode_png, pixels, prove, render, render_png, scene_of, settings_of};
 use glam::Vec3;
 use std::fmt::Write as _;
 use thinlens::reference::sampler;
@@ -184,8 +184,9 @@ fn brightness_goes_with_aperture_time_and_film() {
     near(settings.exposure(), 144.0);
 
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let picture =
-        |arguments: &[&str]| render_png(folder.path(), &[&["-s", "96x54", "-n", "4"], arguments].concat());
+    let picture = |arguments: &[&str]| {
+        decode_png(&render_png(folder.path(), &[&["-s", "96x54", "-n", "4"], arguments].concat()))
+    };
     assert!(picture(&["--shutter", "1/30"]) == picture(&["--exposure", "1"]));
     assert!(picture(&["--iso", "400"]) == picture(&["--exposure", "2"]));
     let own = thinlens::scene::load("version-4").expect("a built-in scene");

@@ -41,6 +41,9 @@ pub const MAX_LENGTH: f32 = 1e9;
 /// The smallest and largest vertical field of view, in degrees.
 pub const VFOV_DEGREES: std::ops::RangeInclusive<f64> = 0.01..=175.0;
 
+/// The shortest and longest scene unit, in metres.
+pub const METRES_PER_UNIT: std::ops::RangeInclusive<f64> = 1e-15..=1e15;
+
 /// A scene: shapes, materials, lights, and the camera and picture size it was composed for.
 #[derive(Debug)]
 pub struct Scene {

@@ -9,8 +9,8 @@ pub use sweep::Sweep;
 
 use crate::error::{Error, Result};
 use crate::scene::{
-    Aperture, Camera, CameraModel, Hole, Lens, MAX_BOUNCES, MAX_EXTENT, MAX_LENGTH, MIN_LENGTH, SceneRef,
-    VFOV_DEGREES,
+    Aperture, Camera, CameraModel, Hole, Lens, MAX_BOUNCES, MAX_EXTENT, MAX_LENGTH, METRES_PER_UNIT,
+    MIN_LENGTH, SceneRef, VFOV_DEGREES,
 };
 use std::ops::RangeInclusive;
 
@@ -282,8 +282,12 @@ impl Settings {
             }
         }
         in_range("vfov", camera.vfov_radians.to_degrees(), *VFOV_DEGREES.start(), *VFOV_DEGREES.end())?;
-        let unit = camera.metres_per_unit;
-        in_range("metres-per-unit", unit, f64::from(MIN_LENGTH), f64::from(MAX_LENGTH))?;
+        in_range(
+            "metres-per-unit",
+            camera.metres_per_unit,
+            *METRES_PER_UNIT.start(),
+            *METRES_PER_UNIT.end(),
+        )?;
         match camera.fault() {
             Some(fault) => Err(Error::OutOfRange(format!("the camera has no view: {fault}"))),
             None => Ok(()),

@@ -203,7 +203,7 @@ impl Panel {
                 if self.settings.estimator.model != CameraModel::Pinhole {
                     section(ui, "Aperture shape", false, &mut layout, |layout| self.shape(ui, layout));
                 }
-                section(ui, "Camera", false, &mut layout, |layout| {
+                section(ui, "Viewpoint", false, &mut layout, |layout| {
                     if camera::edit(ui, &mut self.settings.estimator.camera, layout) {
                         action = Some(Action::ResetCamera);
                     }
