@@ -63,6 +63,8 @@ struct Open {
     camera: [glam::Vec3; 2],
     /// Likewise, camera model, field of view in degrees, blades and cat's eye.
     view: String,
+    /// Likewise, what is allocated on the device.
+    memory: Vec<(String, u64)>,
     occluded: bool,
 }
 
@@ -192,6 +194,7 @@ impl Open {
             state: [f32::NAN; 3],
             camera: [glam::Vec3::NAN; 2],
             view: String::new(),
+            memory: Vec::new(),
             occluded: false,
         };
         open.load_fonts();
@@ -389,6 +392,14 @@ impl Open {
             let [width, height] = self.panel.settings.estimator.size;
             log::debug!("shown {}/{} points of {width}x{height}", shown.0, shown.1);
             self.shown = shown;
+        }
+        if log::log_enabled!(log::Level::Trace) {
+            let memory = self.graphics.memory();
+            if memory != self.memory {
+                let bytes: u64 = memory.iter().map(|(_, bytes)| bytes).sum();
+                log::trace!("memory {bytes} bytes: {memory:?}");
+                self.memory = memory;
+            }
         }
     }
 }

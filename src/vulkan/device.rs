@@ -277,6 +277,15 @@ impl Device {
         (self.raw.clone(), self.queue, Arc::clone(&self.allocator))
     }
 
+    /// What is allocated on it now: each allocation's name and bytes, in the order of their names.
+    pub fn memory(&self) -> Vec<(String, u64)> {
+        let report = self.allocator().generate_report();
+        let mut memory: Vec<_> =
+            report.allocations.into_iter().map(|allocation| (allocation.name, allocation.size)).collect();
+        memory.sort();
+        memory
+    }
+
     pub(super) fn allocator(&self) -> MutexGuard<'_, Allocator> {
         self.allocator.lock().unwrap_or_else(PoisonError::into_inner)
     }

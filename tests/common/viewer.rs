@@ -43,6 +43,8 @@ pub struct Viewer {
     pub view: RefCell<String>,
     /// The pixel whose optics were drawn last, and p there: right, up, depth.
     pub diagram: RefCell<Option<([f32; 2], [f64; 3])>>,
+    /// What is allocated on the device: names and bytes.
+    pub memory: RefCell<Vec<(String, u64)>>,
     /// All samples that were shown, since it was cleared last.
     pub history: RefCell<Vec<u32>>,
     pub display: String,
@@ -119,6 +121,7 @@ impl Viewer {
             camera: RefCell::default(),
             view: RefCell::default(),
             diagram: RefCell::default(),
+            memory: RefCell::default(),
             history: RefCell::default(),
             display,
             folder: folder.to_path_buf(),
@@ -160,6 +163,14 @@ impl Viewer {
         }
         if let Some(view) = line.split("] view ").nth(1) {
             view.clone_into(&mut self.view.borrow_mut());
+        }
+        if let Some((_, memory)) = line.split_once("memory ").and_then(|(_, memory)| memory.split_once(": "))
+        {
+            let named = memory.trim_matches(['[', ']', '(', ')']).split("), (").map(|allocation| {
+                let (name, bytes) = allocation.rsplit_once(", ").expect("a name and bytes");
+                (name.to_owned(), bytes.parse().expect("a number"))
+            });
+            *self.memory.borrow_mut() = named.collect();
         }
         if let Some(shown) = line.split("shown ").nth(1) {
             let (samples, target) = shown.split_once('/').expect("two numbers");

@@ -25,7 +25,7 @@ use files::Files;
 use imgui::{Condition, SliderFlags, Ui};
 use optics::Optics;
 use std::path::Path;
-use widgets::{Layout, named, note_item, section, tooltip};
+use widgets::{Layout, combo, named, note_item, section, tooltip};
 
 /// The points slider goes this far, or as far as was asked for.
 const MAX_POINTS: u32 = 4096;
@@ -160,8 +160,7 @@ impl Panel {
             .size_constraints([PANEL_WIDTH, 0.0], [PANEL_WIDTH, (height - 2.0 * MARGIN).max(64.0)])
             .resizable(false)
             .build(|| {
-                ui.set_next_item_width(-1.0);
-                self.scene_chooser(ui);
+                self.scene_chooser(ui, &mut layout);
                 self.main_sliders(ui, &mut layout);
                 self.progress(ui, status);
                 let mut button = |name, asks| {
@@ -291,16 +290,20 @@ impl Panel {
         self.settings.estimator.size = size;
     }
 
-    fn scene_chooser(&mut self, ui: &Ui) {
+    fn scene_chooser(&mut self, ui: &Ui, layout: &mut Layout) {
         let mut chosen = None;
-        if let Some(_combo) = ui.begin_combo("##scene", &self.settings.estimator.scene.source) {
+        let shown = self.settings.estimator.scene.source.clone();
+        let help = "What is rendered: the built-in scenes, and what was opened.";
+        combo(ui, "Scene", &shown, help, layout, |layout| {
             for name in &self.scenes {
-                if ui.selectable_config(name).selected(*name == self.settings.estimator.scene.source).build()
-                {
+                if ui.selectable_config(name).selected(*name == shown).build() {
                     chosen = Some(name.clone());
                 }
+                if let Some(builtin) = BUILTINS.iter().find(|builtin| builtin.name == name) {
+                    note_item(ui, builtin.name, layout);
+                }
             }
-        }
+        });
         if let Some(name) = chosen {
             self.open(&name);
         }

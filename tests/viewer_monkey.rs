@@ -1,0 +1,220 @@
+//! The viewer in the hands of a monkey.
+
+mod common;
+
+use common::viewer::Viewer;
+use fastrand::Rng;
+use std::collections::HashSet;
+use std::time::{Duration, Instant};
+
+const SIZE: [u16; 2] = [900, 800];
+const ACTIONS: usize = 200;
+const SEED: u64 = 20_261_126;
+/// Bytes that imgui's vertices may take more: their buffers grow with what was drawn at most.
+const VERTICES: u64 = 512 << 10;
+
+const KEYS: [&str; 20] = [
+    "o",
+    "c",
+    "p",
+    "f",
+    "w",
+    "e",
+    "Home",
+    "question",
+    "F1",
+    "Escape",
+    "Tab",
+    "space",
+    "Down",
+    "Right",
+    "ctrl+z",
+    "ctrl+z",
+    "ctrl+shift+z",
+    "ctrl+y",
+    "ctrl+s",
+    "ctrl+c",
+];
+const SCENES: [&str; 4] = ["version-4", "suffern-boxes", "suffern-mirror", "passing"];
+/// What is typed into whatever takes it.
+const WORDS: [&str; 5] = ["0.5", "1e-30", "nan", "nowhere.toml", "999999999999"];
+
+struct Monkey<'a> {
+    viewer: &'a Viewer,
+    random: Rng,
+    size: [u16; 2],
+}
+
+impl Monkey<'_> {
+    /// A few frames, or a moment in which nothing is drawn.
+    fn look(&self) {
+        let (mut frames, deadline) = (0, Instant::now() + Duration::from_secs(2));
+        while frames < 3 && Instant::now() < deadline {
+            match self.viewer.listen(Duration::from_millis(60)) {
+                Some(line) if line.ends_with("frame") => frames += 1,
+                Some(_) => {}
+                None => break,
+            }
+        }
+    }
+
+    fn place(&mut self) -> [i32; 2] {
+        self.size.map(|extent| self.random.i32(0..i32::from(extent)))
+    }
+
+    fn drag(&mut self, button: u8, from: [i32; 2]) {
+        let to = self.place();
+        self.viewer.xdotool(&format!("mousemove {} {}", from[0], from[1]));
+        self.look();
+        self.viewer.xdotool(&format!("mousedown {button}"));
+        self.look();
+        self.viewer.xdotool(&format!("mousemove {} {}", (from[0] + to[0]) / 2, (from[1] + to[1]) / 2));
+        self.look();
+        self.viewer.xdotool(&format!("mousemove {} {}", to[0], to[1]));
+        self.look();
+        self.viewer.xdotool(&format!("mouseup {button}"));
+    }
+
+    /// Does something, and says what.
+    fn act(&mut self) -> String {
+        let viewer = self.viewer;
+        let names: Vec<String> = {
+            let mut names: Vec<String> = viewer.controls.borrow().keys().cloned().collect();
+            names.sort();
+            names
+        };
+        let name = names[self.random.usize(0..names.len())].clone();
+        let [x, y, width, height] = viewer.controls.borrow()[&name];
+        // No panel is dragged out of reach by its title.
+        let held = [x + (f64::from(width) * self.random.f64()) as i32, (y + height / 2).max(40)];
+        let place = self.place();
+        let at = format!("mousemove {} {}", place[0], place[1]);
+        match self.random.u32(0..12) {
+            0..3 => {
+                viewer.xdotool(&format!("mousemove {} {}", held[0], held[1]));
+                self.look();
+                viewer.xdotool("click 1");
+                format!("click {name}")
+            }
+            3..5 => {
+                self.drag(1, held);
+                format!("drag {name}")
+            }
+            5 => {
+                let button = [1, 2, 3][self.random.usize(0..3)];
+                let from = [place[0].max(i32::from(self.size[0]).min(345)), place[1].max(40)];
+                self.drag(button, from);
+                format!("drag the picture with {button}")
+            }
+            6 => {
+                let wheel =
+                    ["click 4", "click 5", "keydown ctrl click 4 keyup ctrl"][self.random.usize(0..3)];
+                viewer.xdotool(&format!("{at} {wheel}"));
+                format!("{wheel} at {place:?}")
+            }
+            7..9 => {
+                let key = KEYS[self.random.usize(0..KEYS.len())];
+                viewer.xdotool(&at);
+                viewer.press(key);
+                format!("press {key}")
+            }
+            9 => {
+                self.size = [self.random.u16(70..1100), self.random.u16(70..900)];
+                let [width, height] = self.size;
+                viewer.xdotool(&format!("search --class thinlens windowsize {width} {height}"));
+                format!("resize to {width} x {height}")
+            }
+            10 => {
+                let scene = SCENES[self.random.usize(0..4)];
+                if self.choose(scene) { format!("scene {scene}") } else { format!("no scene {scene}") }
+            }
+            _ => {
+                let word = WORDS[self.random.usize(0..WORDS.len())];
+                viewer.xdotool(&format!("mousemove {} {}", held[0], held[1]));
+                self.look();
+                viewer.xdotool("keydown ctrl click 1 keyup ctrl");
+                self.look();
+                viewer.xdotool(&format!("type {word}"));
+                viewer.press("Return");
+                format!("type {word} into {name}")
+            }
+        }
+    }
+
+    /// Chooses a scene, if the choices can be reached.
+    fn choose(&self, scene: &str) -> bool {
+        let viewer = self.viewer;
+        viewer.controls.borrow_mut().remove(scene);
+        viewer.press("Escape");
+        viewer.xdotool("mousemove 100 100");
+        (0..5).for_each(|_| viewer.xdotool("click --repeat 10 4"));
+        self.look();
+        let Some([x, y, _, height]) = viewer.controls.borrow().get("Scene").copied() else {
+            return false;
+        };
+        viewer.xdotool(&format!("mousemove {} {}", x + 20, y + height / 2));
+        self.look();
+        viewer.xdotool("click 1");
+        let deadline = Instant::now() + Duration::from_secs(1);
+        while !viewer.controls.borrow().contains_key(scene) {
+            if Instant::now() > deadline {
+                return false;
+            }
+            viewer.listen(Duration::from_millis(20));
+        }
+        viewer.click_once(scene);
+        true
+    }
+}
+
+/// Catches what no one thought of: actions that end the viewer, that break Vulkan's rules, or that leave memory
+/// of the device behind.
+#[test]
+fn two_hundred_actions_leave_nothing_behind() {
+    let viewer = Viewer::start(SIZE, &["-n", "4"]);
+    viewer.wait_until_done();
+    let start = *viewer.state.borrow();
+    let camera = *viewer.camera.borrow();
+    let mut monkey = Monkey { viewer: &viewer, random: Rng::with_seed(SEED), size: SIZE };
+    let home = |monkey: &mut Monkey<'_>| {
+        monkey.size = SIZE;
+        viewer.xdotool(&format!("search --class thinlens windowsize {} {}", SIZE[0], SIZE[1]));
+        monkey.look();
+        viewer.until(
+            "version-4",
+            |viewer| *viewer.state.borrow() == start && *viewer.camera.borrow() == camera,
+            || {
+                assert!(monkey.choose("version-4"), "the scenes cannot be reached");
+                viewer.click_once("Reset");
+            },
+        );
+        let holds =
+            |viewer: &Viewer| viewer.memory.borrow().iter().any(|(name, _)| name.contains("held picture"));
+        if holds(&viewer) {
+            viewer.until("letting go", |viewer| !holds(viewer), || viewer.press("c"));
+        }
+    };
+    // What is made once, and stays.
+    for key in ["o", "c", "c", "o", "f"] {
+        viewer.press(key);
+        monkey.look();
+    }
+    home(&mut monkey);
+    let before = viewer.memory.borrow().clone();
+    let mut seen = HashSet::new();
+    for number in 0..ACTIONS {
+        let action = monkey.act();
+        monkey.look();
+        seen.insert(viewer.memory.borrow().clone());
+        println!("{number}: {action}");
+    }
+    assert!(seen.len() > 20, "the monkey reaches little: memory was used in {} ways", seen.len());
+    home(&mut monkey);
+    let after = viewer.memory.borrow().clone();
+    let names = |memory: &[(String, u64)]| memory.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
+    assert_eq!(names(&before), names(&after));
+    let bytes = |memory: &[(String, u64)]| memory.iter().map(|(_, bytes)| bytes).sum::<u64>();
+    println!("{} ways of using memory, {} bytes before, {} after", seen.len(), bytes(&before), bytes(&after));
+    assert!(bytes(&after) <= bytes(&before) + VERTICES, "before: {before:?}\nafter: {after:?}");
+    viewer.close();
+}
