@@ -8,7 +8,7 @@
 //! ```
 //!
 //! - [`settings`] has two halves. A change of the [`settings::Estimator`] starts the film anew, a
-//!   change of the [`settings::View`] does not.
+//!   change of the [`scene::View`] does not.
 //! - [`scene`] holds plain values and reads them from TOML and OBJ.
 //! - [`gpu_types`] holds the byte-for-byte twins of the shaders' structs.
 //! - [`passes`] are the three compute passes, each with the shader of its name in `shaders/`.

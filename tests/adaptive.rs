@@ -10,8 +10,9 @@ use std::time::Duration;
 use thinlens::reference::Reference;
 use thinlens::reference::tone::srgb;
 use thinlens::renderer::Pace;
+use thinlens::scene::Overlay;
 use thinlens::scene::{Background, SceneRef};
-use thinlens::settings::{Overlay, Settings};
+use thinlens::settings::Settings;
 
 /// Pixels may stop at multiples of 16 samples, from 32 on.
 const CUTS: [usize; 3] = [32, 48, 64];

@@ -6,8 +6,9 @@ use common::{decode_png, run};
 use std::path::Path;
 use thinlens::cli::settings_of_arguments;
 use thinlens::output::Origin;
+use thinlens::scene::Overlay;
 use thinlens::scene::{self, CameraModel, SceneRef};
-use thinlens::settings::{Overlay, Sampler, Settings};
+use thinlens::settings::{Sampler, Settings};
 
 /// Every option that changes a picture, in groups that go together.
 const OPTIONS: [&[&str]; 8] = [

@@ -8,8 +8,9 @@ use common::probe::probe;
 use common::{Gpu, prove, settings_of};
 use glam::{DVec2, DVec3, Vec3};
 use thinlens::gpu_types::Camera;
+use thinlens::scene::Preset;
 use thinlens::scene::{CameraModel, Hole};
-use thinlens::settings::{Estimator, PRESETS};
+use thinlens::settings::Estimator;
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
@@ -317,7 +318,7 @@ fn lenses_have_the_f_numbers_and_fields_of_view_they_are_named_for() {
     let of = |name: &str| {
         let mut estimator = slanted([64, 48], 37.0, 0.3, 5.0);
         estimator.camera.metres_per_unit = 0.1;
-        PRESETS.iter().find(|preset| preset.name == name).expect("a preset").apply(&mut estimator);
+        estimator.take_preset(Preset::named(name).expect("a preset"));
         estimator
     };
     // A 24 mm high frame behind a 50 mm lens is 26.99 degrees high.

@@ -7,8 +7,9 @@ use common::scenes::EVERYTHING;
 use common::{Gpu, circle_of_confusion, pixels, prove, settings_of, small};
 use thinlens::reference::{Reference, tone};
 use thinlens::renderer::Renderer;
+use thinlens::scene::Overlay;
 use thinlens::scene::{CameraModel, Hole};
-use thinlens::settings::{Overlay, Settings};
+use thinlens::settings::Settings;
 
 /// The oracle's depth of each pixel's middle.
 fn depths(settings: &Settings) -> Vec<f64> {

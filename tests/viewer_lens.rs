@@ -5,8 +5,9 @@ mod common;
 use common::viewer::Viewer;
 use common::{circle_of_confusion, seen};
 use std::time::Duration;
+use thinlens::scene::Preset;
 use thinlens::scene::{self, SceneRef};
-use thinlens::settings::{Estimator, PRESETS, Settings};
+use thinlens::settings::{Estimator, Settings};
 
 const SIZE: [u16; 2] = [800, 900];
 
@@ -130,9 +131,9 @@ fn the_lens_is_chosen_by_name_and_by_f_number() {
     };
     let choose = |combo: &str, choice: &str, view: &str| choose_lens(combo, choice, view, None);
     // The other 50 mm lenses have the same view.
-    let preset = PRESETS.iter().find(|preset| preset.name == "50mm-f1.4").expect("a preset");
+    let preset = Preset::named("50mm-f1.4").expect("a preset");
     let mut with_preset = estimator.clone();
-    preset.apply(&mut with_preset);
+    with_preset.take_preset(preset);
     let diameter = Some(with_preset.lens.diameter);
     choose_lens("Known lenses", "50 mm f/1.4", "ThinLens 26.991 0 0", diameter);
     viewer.expect_picture("a 50 mm lens", 0, &["-n", "2", "--preset", "50mm-f1.4"]);

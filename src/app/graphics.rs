@@ -56,6 +56,11 @@ impl Graphics {
         &self.device.info().name
     }
 
+    /// What is allocated on the device: names and bytes.
+    pub(super) fn memory(&self) -> Vec<(String, u64)> {
+        self.device.memory()
+    }
+
     pub(super) fn progress(&self) -> Progress {
         self.renderer.progress()
     }

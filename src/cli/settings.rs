@@ -2,8 +2,8 @@
 
 use super::parse_size;
 use crate::error::Result;
-use crate::scene::{self, ApertureImage, BUILTINS, CameraModel, SceneRef};
-use crate::settings::{DEFAULT_SAMPLES, Overlay, PRESETS, Preset, Sampler, Settings};
+use crate::scene::{self, ApertureImage, BUILTINS, CameraModel, Overlay, PRESETS, Preset, SceneRef};
+use crate::settings::{DEFAULT_SAMPLES, Sampler, Settings};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use glam::Vec3;
@@ -212,11 +212,12 @@ impl SettingsArgs {
         set(&mut camera.eye, self.eye);
         set(&mut camera.look_at, self.look_at);
         set(&mut camera.up, self.up);
-        set(&mut camera.vfov_radians, self.vfov.map(f64::to_radians));
         set(&mut camera.metres_per_unit, self.metres_per_unit);
+        // What else is named changes the preset.
         if let Some(preset) = self.preset.as_deref().and_then(Preset::named) {
-            preset.apply(estimator);
+            estimator.take_preset(preset);
         }
+        set(&mut estimator.camera.vfov_radians, self.vfov.map(f64::to_radians));
         set(&mut estimator.model, self.camera);
         set(&mut estimator.lens.diameter, self.lens_diameter);
         if let Some(f_number) = self.f_number {

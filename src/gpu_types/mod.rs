@@ -8,8 +8,8 @@ mod scene;
 pub use aperture::{Aperture, ApertureBuffer, aperture_constant, aperture_sums};
 pub use scene::{SceneData, Tree};
 
-use crate::scene::{CameraModel, Hole};
-use crate::settings::{Estimator, Overlay, Sampler, Settings};
+use crate::scene::{CameraModel, Hole, Overlay};
+use crate::settings::{Estimator, Sampler, Settings};
 use bytemuck::{Pod, Zeroable};
 
 /// `Sphere` of scene.glsl.

@@ -4,8 +4,9 @@ use super::Renderer;
 use crate::error::Result;
 use crate::gpu_types::Camera;
 use crate::passes::Geometry;
+use crate::scene::Overlay;
 use crate::scene::{self, CameraModel, SceneRef};
-use crate::settings::{Estimator, Overlay, Settings};
+use crate::settings::{Estimator, Settings};
 use crate::vulkan::Recording;
 
 /// What the depths depend on, besides the film's size: the lens is not among it.

@@ -1,14 +1,12 @@
 //! The scene file's tables. A table's name says what the thing is: `[[sphere]]`, `[matte.NAME]`,
 //! `[[directional]]`. Unknown keys are errors.
 
+use super::camera_format::{CameraTable, Shot, ViewTable, view};
 use super::file::Fault;
 use super::material_format::{LightColor, MaterialList, MatteTable, MirrorTable, Named, PhongTable, white};
 use super::mesh::{Mesh, Placement};
 use super::number::{Count, Extent, NonNegative, Positive, Rgb, Vector};
-use super::{
-    Aabb, Aperture, ApertureImage, Background, Camera, CameraModel, DEFAULT_ISO, DEFAULT_SHUTTER, Hole, Lens,
-    Light, LightKind, Plane, Scene, Shaded, Sphere, Triangle, VFOV_DEGREES,
-};
+use super::{Aabb, Background, Light, LightKind, Plane, Scene, Shaded, Sphere, Triangle, View};
 use glam::Vec3;
 use serde::Deserialize;
 use std::path::Path;
@@ -22,6 +20,8 @@ pub(super) struct SceneFile {
     #[serde(default = "default_max_bounces")]
     max_bounces: Count,
     camera: Spanned<CameraTable>,
+    #[serde(default)]
+    view: Option<Spanned<ViewTable>>,
     #[serde(default)]
     background: Option<Spanned<BackgroundTable>>,
     #[serde(default)]
@@ -48,45 +48,6 @@ pub(super) struct SceneFile {
     plane: Vec<PlaneTable>,
     #[serde(default)]
     mesh: Vec<MeshTable>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct CameraTable {
-    eye: Vector,
-    look_at: Vector,
-    #[serde(default = "upwards")]
-    up: Vector,
-    vfov_degrees: Option<Positive>,
-    view_distance: Option<Positive>,
-    pixel_size: Option<Positive>,
-    #[serde(default = "one")]
-    metres_per_unit: Positive,
-    #[serde(default)]
-    model: ModelName,
-    lens_diameter: Option<NonNegative>,
-    f_number: Option<Positive>,
-    focal_distance: Positive,
-    hole_diameter: Option<NonNegative>,
-    #[serde(default)]
-    upright: bool,
-    blades: Option<u32>,
-    blade_rotation_degrees: Option<f32>,
-    roundness: Option<f32>,
-    anamorphic: Option<f32>,
-    cats_eye: Option<f32>,
-    aperture_image: Option<Spanned<String>>,
-    shutter: Option<Positive>,
-    iso: Option<Positive>,
-}
-
-#[derive(Deserialize, Default, Clone, Copy)]
-#[serde(rename_all = "kebab-case")]
-enum ModelName {
-    #[default]
-    ThinLens,
-    Pinhole,
-    Hole,
 }
 
 #[derive(Deserialize)]
@@ -179,10 +140,6 @@ fn default_max_bounces() -> Count {
     Count(5)
 }
 
-fn upwards() -> Vector {
-    Vector(Vec3::Y)
-}
-
 fn one() -> Positive {
     Positive(1.0)
 }
@@ -199,7 +156,9 @@ impl SceneFile {
     /// Files that the scene names lie in `folder`, unless their paths say otherwise.
     pub(super) fn into_scene(self, name: &str, folder: &Path) -> Result<Scene, Fault> {
         let size = [self.size[0].0, self.size[1].0];
-        let View { camera, model, lens, hole, aperture, shutter, iso } = camera(&self.camera, size, folder)?;
+        let Shot { camera, model, lens, hole, aperture, shutter, iso } =
+            Shot::new(&self.camera, size, folder)?;
+        let view = View { iso, ..view(self.view.as_ref())? };
         let background = background(self.background.as_ref())?;
         let ambient = self.ambient.as_ref().map_or(Vec3::ZERO, LightColor::radiance);
         let lights = self.lights()?;
@@ -218,7 +177,7 @@ impl SceneFile {
             hole,
             aperture,
             shutter,
-            iso,
+            view,
             size,
             max_bounces: self.max_bounces.0,
             background,
@@ -297,85 +256,6 @@ impl MeshTable {
         let placement = Placement::new(self.scale.f64(), angles, position);
         mesh.add_to(scene, &placement, material, self.velocity.0)
     }
-}
-
-fn camera(table: &Spanned<CameraTable>, size: [u32; 2], folder: &Path) -> Result<View, Fault> {
-    let span = table;
-    let table = table.get_ref();
-    let vfov_radians = match (&table.vfov_degrees, &table.view_distance, &table.pixel_size) {
-        (Some(degrees), None, None) => degrees.f64().to_radians(),
-        (None, Some(distance), Some(pixel)) => {
-            let half_height = 0.5 * f64::from(size[1]) * pixel.f64();
-            2.0 * (half_height / distance.f64()).atan()
-        }
-        _ => {
-            let message = "the camera needs either vfov_degrees, or view_distance and pixel_size";
-            return Err(fault(span, message));
-        }
-    };
-    if !VFOV_DEGREES.contains(&vfov_radians.to_degrees()) {
-        let (degrees, low, high) = (vfov_radians.to_degrees(), VFOV_DEGREES.start(), VFOV_DEGREES.end());
-        let message = format!("a vertical field of view of {degrees} degrees must be from {low} to {high}");
-        return Err(fault(span, &message));
-    }
-    let (eye, look_at, up) = (table.eye.0, table.look_at.0, table.up.0);
-    let camera = Camera { eye, look_at, up, vfov_radians, metres_per_unit: table.metres_per_unit.f64() };
-    if let Some(message) = camera.fault() {
-        return Err(fault(span, message));
-    }
-    let diameter = match (&table.lens_diameter, &table.f_number) {
-        (Some(diameter), None) => diameter.0,
-        (None, Some(f_number)) => camera.diameter_of_f_number(f_number.f64()) as f32,
-        _ => return Err(fault(span, "the camera needs either lens_diameter or f_number")),
-    };
-    let hole = table.hole_diameter.as_ref().map_or(camera.default_hole_diameter(), |diameter| diameter.0);
-    Ok(View {
-        camera,
-        model: match table.model {
-            ModelName::ThinLens => CameraModel::ThinLens,
-            ModelName::Pinhole => CameraModel::Pinhole,
-            ModelName::Hole => CameraModel::Hole,
-        },
-        lens: Lens { diameter, focal_distance: table.focal_distance.f32() },
-        hole: Hole { diameter: hole, upright: table.upright },
-        aperture: aperture(span, folder)?,
-        shutter: table.shutter.as_ref().map_or(DEFAULT_SHUTTER, Positive::f32),
-        iso: table.iso.as_ref().map_or(DEFAULT_ISO, Positive::f32),
-    })
-}
-
-fn aperture(table: &Spanned<CameraTable>, folder: &Path) -> Result<Aperture, Fault> {
-    let CameraTable {
-        blades, blade_rotation_degrees, roundness, anamorphic, cats_eye, aperture_image, ..
-    } = table.get_ref();
-    let read = |file: &Spanned<String>| {
-        let image = ApertureImage::read(&folder.join(file.get_ref()));
-        image.map_err(|error| fault(file, &error.to_string()))
-    };
-    let plain = Aperture::default();
-    let aperture = Aperture {
-        blades: blades.unwrap_or(plain.blades),
-        rotation_degrees: blade_rotation_degrees.unwrap_or(plain.rotation_degrees),
-        roundness: roundness.unwrap_or(plain.roundness),
-        anamorphic: anamorphic.unwrap_or(plain.anamorphic),
-        cats_eye: cats_eye.unwrap_or(plain.cats_eye),
-        image: aperture_image.as_ref().map(read).transpose()?,
-    };
-    match aperture.fault() {
-        Some(message) => Err(fault(table, &message)),
-        None => Ok(aperture),
-    }
-}
-
-/// What the camera's table says.
-struct View {
-    camera: Camera,
-    model: CameraModel,
-    lens: Lens,
-    hole: Hole,
-    aperture: Aperture,
-    shutter: f32,
-    iso: f32,
 }
 
 fn background(table: Option<&Spanned<BackgroundTable>>) -> Result<Background, Fault> {

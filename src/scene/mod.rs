@@ -4,6 +4,7 @@ mod aperture;
 mod builtin;
 mod bvh;
 mod camera;
+mod camera_format;
 mod file;
 mod format;
 mod light;
@@ -13,8 +14,10 @@ mod mesh;
 mod number;
 mod obj;
 mod optics;
+mod preset;
 mod shape;
 mod stage;
+mod view;
 
 pub use aperture::{Aperture, ApertureImage, BLADES, Mask};
 pub use builtin::{BUILTINS, Builtin};
@@ -24,7 +27,9 @@ pub use file::load;
 pub use light::{Background, Light, LightKind};
 pub use material::{Checker, Material};
 pub use optics::{FRAME_HEIGHT_MM, vfov_of_focal_length};
+pub use preset::{PRESETS, Preset};
 pub use shape::{Aabb, Plane, Shaded, Sphere, Triangle};
+pub use view::{Overlay, View};
 
 use glam::Vec3;
 use std::sync::Arc;
@@ -65,8 +70,9 @@ pub struct Scene {
     pub size: [u32; 2],
     /// How long the shutter is open, in seconds.
     pub shutter: f32,
-    /// The film's speed that the brightness is given for.
-    pub iso: f32,
+    /// How it is shown at first. The brightness is given for the film's speed here, and for the lens and shutter
+    /// above.
+    pub view: View,
     /// How many reflections are followed, unless another number is asked for.
     pub max_bounces: u32,
     /// What is seen where nothing is hit.
@@ -91,8 +97,6 @@ pub struct Scene {
 
 /// How long the shutter is open, in seconds, unless the scene says otherwise.
 const DEFAULT_SHUTTER: f32 = 1.0 / 60.0;
-/// Likewise, the film's speed.
-const DEFAULT_ISO: f32 = 100.0;
 
 impl Scene {
     /// Whether anything in it moves.

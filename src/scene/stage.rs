@@ -2,8 +2,8 @@
 
 use super::mesh::{Mesh, Placement};
 use super::{
-    Aperture, Background, Camera, CameraModel, Checker, DEFAULT_ISO, DEFAULT_SHUTTER, Hole, Lens, Light,
-    LightKind, Material, Plane, Scene, Shaded,
+    Aperture, Background, Camera, CameraModel, Checker, DEFAULT_SHUTTER, Hole, Lens, Light, LightKind,
+    Material, Plane, Scene, Shaded, View,
 };
 use crate::error::Result;
 use glam::{DVec3, Vec3};
@@ -62,7 +62,7 @@ pub(super) fn around(mesh: &Mesh, name: &str) -> Result<Scene> {
         aperture: Aperture::default(),
         size: SIZE,
         shutter: DEFAULT_SHUTTER,
-        iso: DEFAULT_ISO,
+        view: View::default(),
         max_bounces: 5,
         background: Background { horizon: Vec3::new(0.92, 0.9, 0.87), zenith: Vec3::new(0.24, 0.44, 0.78) },
         ambient: Vec3::new(0.24, 0.27, 0.32),

@@ -1,8 +1,8 @@
 //! Settings as the arguments of the command line that renders them: for people to copy, and for pictures to
 //! carry.
 
-use super::{Overlay, Sampler, Settings};
-use crate::scene::CameraModel;
+use super::{Sampler, Settings};
+use crate::scene::{CameraModel, Overlay};
 use glam::Vec3;
 
 impl Settings {

@@ -1,16 +1,14 @@
 //! Everything a user can set, in the two halves that decide when the film starts anew.
 
 mod arguments;
-mod preset;
 mod sweep;
 
-pub use preset::{PRESETS, Preset};
 pub use sweep::Sweep;
 
 use crate::error::{Error, Result};
 use crate::scene::{
     Aperture, Camera, CameraModel, Hole, Lens, MAX_BOUNCES, MAX_EXTENT, MAX_LENGTH, METRES_PER_UNIT,
-    MIN_LENGTH, SceneRef, VFOV_DEGREES,
+    MIN_LENGTH, Overlay, Preset, SceneRef, VFOV_DEGREES, View,
 };
 use std::ops::RangeInclusive;
 
@@ -116,6 +114,11 @@ impl Estimator {
         self.camera.f_number(self.lens.diameter)
     }
 
+    /// Puts a lens that people know in front of the camera.
+    pub fn take_preset(&mut self, preset: &Preset) {
+        preset.apply(&mut self.camera, &mut self.model, &mut self.lens);
+    }
+
     /// Gives the lens this f-number.
     ///
     /// # Errors
@@ -150,61 +153,11 @@ impl Sampler {
         [("blue-noise", Self::BlueNoise), ("sobol", Self::Sobol), ("random", Self::Random)];
 }
 
-/// Whatever changes only how the film is shown.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct View {
-    /// Brightness, in stops: the picture is multiplied by two to this power.
-    pub exposure_stops: f32,
-    /// The film's speed: twice as fast is twice as bright.
-    pub iso: f32,
-    /// Whether the brightness stays when the aperture changes.
-    pub exposure_lock: bool,
-    /// What is shown instead of the picture, or on it, if anything.
-    pub overlay: Option<Overlay>,
-    /// How wide a circle of confusion may be that counts as sharp, in pixels.
-    pub tolerance: f32,
-}
-
-/// What can be shown instead of the picture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Overlay {
-    /// Each pixel's number of samples, from black for none to white for as many as wanted.
-    Count,
-    /// The standard error of each pixel's mean luminance, as a share of it.
-    Error,
-    /// The distance along the axis: white at the lens, grey in the focal plane, black far away.
-    Depth,
-    /// The circle of confusion: blue in front of the focal plane, orange behind it, white where it is sharp.
-    Blur,
-    /// The picture, with all marked whose circle of confusion is below [`View::tolerance`].
-    FocusPeaking,
-    /// The picture, with the slice marked that the focal plane cuts out of the scene.
-    FocalPlane,
-}
-
-impl Overlay {
-    /// Every overlay, by its name.
-    pub const NAMES: [(&'static str, Self); 6] = [
-        ("focus-peaking", Self::FocusPeaking),
-        ("focal-plane", Self::FocalPlane),
-        ("circle-of-confusion", Self::Blur),
-        ("depth", Self::Depth),
-        ("count", Self::Count),
-        ("error", Self::Error),
-    ];
-
-    /// Whether it needs the depth of each pixel.
-    pub fn shows_depth(self) -> bool {
-        !matches!(self, Self::Count | Self::Error)
-    }
-}
-
 impl Settings {
     /// The settings that a scene was composed for.
     pub fn of_scene(scene: SceneRef) -> Self {
-        let view =
-            View { exposure_stops: 0.0, iso: scene.iso, exposure_lock: true, overlay: None, tolerance: 1.0 };
-        Self {
+        let view = scene.view;
+        let mut settings = Self {
             estimator: Estimator {
                 camera: scene.camera,
                 model: scene.model,
@@ -223,7 +176,9 @@ impl Settings {
             },
             view,
             samples: DEFAULT_SAMPLES,
-        }
+        };
+        settings.show(view.overlay);
+        settings
     }
 
     /// What the scene was composed for, as it is sampled here.
@@ -256,7 +211,8 @@ impl Settings {
     /// exposure is locked or there is a pinhole, through which none would.
     pub fn exposure(&self) -> f32 {
         let (estimator, scene) = (&self.estimator, &*self.estimator.scene);
-        let mut light = f64::from(estimator.shutter / scene.shutter) * f64::from(self.view.iso / scene.iso);
+        let mut light =
+            f64::from(estimator.shutter / scene.shutter) * f64::from(self.view.iso / scene.view.iso);
         if !self.view.exposure_lock {
             let f_numbers = match estimator.model {
                 CameraModel::ThinLens => [scene.camera.f_number(scene.lens.diameter), estimator.f_number()],

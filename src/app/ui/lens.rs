@@ -2,8 +2,8 @@
 
 use super::widgets::{Layout, combo, named, note_item, tooltip};
 use super::{LOGARITHMIC, Panel};
-use crate::scene::{CameraModel, MAX_LENGTH, MIN_LENGTH};
-use crate::settings::{Estimator, PRESETS};
+use crate::scene::{CameraModel, MAX_LENGTH, MIN_LENGTH, PRESETS};
+use crate::settings::Estimator;
 use imgui::{SliderFlags, Ui};
 
 /// The full stops that have a button.
@@ -134,7 +134,7 @@ fn choose_preset(ui: &Ui, estimator: &mut Estimator, layout: &mut Layout) {
     combo(ui, "Known lenses", "Known lenses", help, layout, |layout| {
         for preset in &PRESETS {
             if ui.selectable(preset.label) {
-                preset.apply(estimator);
+                estimator.take_preset(preset);
             }
             note_item(ui, preset.label, layout);
             tooltip(ui, preset.help);

@@ -19,7 +19,7 @@ use crate::error::Error;
 use crate::output::{Origin, PictureFormat};
 use crate::renderer::{Picked, Progress};
 use crate::scene::{self, ApertureImage, BUILTINS, CameraModel, SceneRef};
-use crate::settings::{Settings, View};
+use crate::settings::Settings;
 use compare::Held;
 use files::Files;
 use imgui::{Condition, SliderFlags, Ui};
@@ -340,7 +340,7 @@ impl Panel {
         }
     }
 
-    /// Another scene's settings; how it is sampled and shown stays.
+    /// Another scene's settings. How it is sampled stays, and an overlay, unless the scene has its own.
     fn with_scene(&self, scene: SceneRef) -> Settings {
         let mut settings = Settings::of_scene(scene);
         let (now, estimator) = (&self.settings, &mut settings.estimator);
@@ -349,8 +349,10 @@ impl Panel {
         (estimator.sampler, estimator.seed) = (now.estimator.sampler, now.estimator.seed);
         estimator.noise_threshold = now.estimator.noise_threshold;
         settings.samples = now.samples;
-        settings.view = View { iso: settings.view.iso, ..now.view };
-        settings.show(now.view.overlay);
+        if settings.view.overlay.is_none() {
+            settings.view.tolerance = now.view.tolerance;
+            settings.show(now.view.overlay);
+        }
         settings
     }
 

@@ -2,7 +2,8 @@
 
 use super::widgets::{Layout, combo, named, note_item, tooltip};
 use super::{LOGARITHMIC, MARGIN, Panel};
-use crate::settings::{Overlay, Settings, TOLERANCES};
+use crate::scene::Overlay;
+use crate::settings::{Settings, TOLERANCES};
 use imgui::{Condition, Ui, WindowFlags};
 
 const CHOICES: [(Option<Overlay>, &str, &str); 7] = [

@@ -1,7 +1,6 @@
 //! Lenses that people know.
 
-use super::Estimator;
-use crate::scene::{CameraModel, vfov_of_focal_length};
+use super::{Camera, CameraModel, Lens, vfov_of_focal_length};
 
 /// A lens, by its name.
 #[derive(Debug, Clone, Copy)]
@@ -65,18 +64,15 @@ impl Preset {
     }
 
     /// Puts the lens in front of the camera. What is in focus stays in focus.
-    pub fn apply(&self, estimator: &mut Estimator) {
-        let camera = &mut estimator.camera;
-        estimator.model = CameraModel::ThinLens;
+    pub fn apply(&self, camera: &mut Camera, model: &mut CameraModel, lens: &mut Lens) {
+        *model = CameraModel::ThinLens;
         match self.opening {
-            Opening::Pinhole => estimator.model = CameraModel::Pinhole,
+            Opening::Pinhole => *model = CameraModel::Pinhole,
             Opening::Photographic { focal_length_mm, f_number } => {
                 camera.vfov_radians = vfov_of_focal_length(focal_length_mm);
-                estimator.lens.diameter = camera.diameter_of_f_number(f_number) as f32;
+                lens.diameter = camera.diameter_of_f_number(f_number) as f32;
             }
-            Opening::Pupil { diameter_mm } => {
-                estimator.lens.diameter = camera.units_of_mm(diameter_mm) as f32;
-            }
+            Opening::Pupil { diameter_mm } => lens.diameter = camera.units_of_mm(diameter_mm) as f32,
         }
     }
 }
