@@ -41,6 +41,7 @@ fn run(command: Command) -> Result<()> {
             device: args.device.choice(),
             quiet: args.quiet,
         }),
+        Command::Save(args) => output::save_scene(&args.settings.of_file()?, &args.output),
         Command::Verify(args) => {
             output::say(&verify::run(&args.settings.of_proof()?, &args.device.choice())?)
         }

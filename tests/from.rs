@@ -1,13 +1,13 @@
-//! Pictures that carry how they were made, and are rendered again from it.
+//! Pictures that carry how they were made, and scenes that are saved: both give the same settings again.
 
 mod common;
 
 use common::{decode_png, run};
 use std::path::Path;
 use thinlens::cli::settings_of_arguments;
-use thinlens::output::Origin;
-use thinlens::scene::Overlay;
-use thinlens::scene::{self, CameraModel, SceneRef};
+use thinlens::output::{self, Origin};
+
+use thinlens::scene::{self, CameraModel, Overlay, SceneRef};
 use thinlens::settings::{Sampler, Settings};
 
 /// Every option that changes a picture, in groups that go together.
@@ -162,50 +162,158 @@ fn other_options_change_what_a_picture_says() {
     }
 }
 
+/// Settings of a scene in which nothing is as the scene has it.
+fn changed(scene: &SceneRef, random: &mut fastrand::Rng) -> Settings {
+    let mut settings = Settings::of_scene(scene.clone());
+    let (estimator, view) = (&mut settings.estimator, &mut settings.view);
+    let mut part = |low: f32, high: f32| low + random.f32() * (high - low);
+    estimator.camera.eye = glam::vec3(part(-9.0, 9.0), part(1.0, 5.0), part(-1.0, 9.0));
+    estimator.camera.look_at = glam::vec3(part(-1.0, 1.0), part(1.0, 5.0), part(-19.0, -9.0));
+    estimator.camera.up.x = part(-0.5, 0.5);
+    estimator.camera.vfov_radians = (f64::from(part(5.0, 140.0)) / 1.01).to_radians();
+    estimator.camera.metres_per_unit = f64::from(part(0.01, 3.0)) / 3.0;
+    estimator.model = CameraModel::NAMES[part(0.0, 2.99) as usize].1;
+    estimator.lens.diameter = part(0.0, 2.0);
+    estimator.lens.focal_distance = part(0.1, 99.0);
+    estimator.hole.diameter = part(0.0, 0.2);
+    estimator.hole.upright = part(0.0, 1.0) > 0.5;
+    estimator.aperture.blades = 3 + part(0.0, 13.0) as u32;
+    estimator.aperture.rotation_degrees = part(-180.0, 180.0);
+    estimator.aperture.roundness = part(0.0, 1.0);
+    estimator.aperture.anamorphic = part(0.2, 5.0);
+    estimator.shutter = part(0.001, 2.0);
+    estimator.size = [part(1.0, 999.0) as u32, part(1.0, 999.0) as u32];
+    estimator.jitter = part(0.0, 9.0);
+    estimator.max_bounces = part(0.0, 9.0) as u32;
+    estimator.sampler = Sampler::NAMES[part(0.0, 2.99) as usize].1;
+    estimator.seed = part(0.0, 1e6) as u32;
+    estimator.noise_threshold = part(0.0, 0.1);
+    view.exposure_stops = part(-5.0, 5.0);
+    view.iso = part(20.0, 3000.0);
+    view.exposure_lock = part(0.0, 1.0) > 0.5;
+    view.tolerance = part(0.1, 9.0);
+    let overlay = Overlay::NAMES[part(0.0, 5.99) as usize].1;
+    settings.samples = part(1.0, 999.0) as u32;
+    settings.show(Some(overlay));
+    settings.check().expect("settings that there can be");
+    settings
+}
+
 /// Catches a setting without an argument, and numbers that lose their last digits on the way.
 #[test]
 fn arguments_give_the_same_settings_to_the_bit() {
     let scene = SceneRef::new(scene::load("version-4").expect("a built-in scene"));
     let mut random = fastrand::Rng::with_seed(7);
     for _ in 0..200 {
-        let mut settings = Settings::of_scene(scene.clone());
-        let (estimator, view) = (&mut settings.estimator, &mut settings.view);
-        let mut part = |low: f32, high: f32| low + random.f32() * (high - low);
-        estimator.camera.eye = glam::vec3(part(-9.0, 9.0), part(1.0, 5.0), part(-1.0, 9.0));
-        estimator.camera.look_at = glam::vec3(part(-1.0, 1.0), part(1.0, 5.0), part(-19.0, -9.0));
-        estimator.camera.up.x = part(-0.5, 0.5);
-        estimator.camera.vfov_radians = (f64::from(part(5.0, 140.0)) / 1.01).to_radians();
-        estimator.camera.metres_per_unit = f64::from(part(0.01, 3.0)) / 3.0;
-        estimator.model = CameraModel::NAMES[part(0.0, 2.99) as usize].1;
-        estimator.lens.diameter = part(0.0, 2.0);
-        estimator.lens.focal_distance = part(0.1, 99.0);
-        estimator.hole.diameter = part(0.0, 0.2);
-        estimator.hole.upright = part(0.0, 1.0) > 0.5;
-        estimator.aperture.blades = 3 + part(0.0, 13.0) as u32;
-        estimator.aperture.rotation_degrees = part(-180.0, 180.0);
-        estimator.aperture.roundness = part(0.0, 1.0);
-        estimator.aperture.anamorphic = part(0.2, 5.0);
-        estimator.shutter = part(0.001, 2.0);
-        estimator.size = [part(1.0, 999.0) as u32, part(1.0, 999.0) as u32];
-        estimator.jitter = part(0.0, 9.0);
-        estimator.max_bounces = part(0.0, 9.0) as u32;
-        estimator.sampler = Sampler::NAMES[part(0.0, 2.99) as usize].1;
-        estimator.seed = part(0.0, 1e6) as u32;
-        estimator.noise_threshold = part(0.0, 0.1);
-        view.exposure_stops = part(-5.0, 5.0);
-        view.iso = part(20.0, 3000.0);
-        view.exposure_lock = part(0.0, 1.0) > 0.5;
-        view.tolerance = part(0.1, 9.0);
-        let overlay = Overlay::NAMES[part(0.0, 5.99) as usize].1;
-        settings.samples = part(1.0, 999.0) as u32;
-        settings.show(Some(overlay));
-        settings.check().expect("settings that there can be");
-
+        let settings = changed(&scene, &mut random);
         let arguments = settings.arguments();
         let mut again = settings_of_arguments(&arguments).expect("settings");
         // Scenes are equal where they are the same loading.
         again.estimator.scene = scene.clone();
         assert_eq!(again, settings, "{arguments:?}");
+    }
+}
+
+/// Catches a setting that a saved scene lacks, one that stays beside its other name, brightness that is counted
+/// twice or not at all, and lost comments.
+#[test]
+fn a_saved_scene_has_the_settings_it_was_saved_with() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let own = folder.path().join("own.toml");
+    let text = include_str!("../src/scene/builtin/suffern-boxes.toml");
+    let shot = "eye = [0, 1, 9] # from here\nlook_at = [0, 1, 0]\nfocal_distance = 9\npreset = \"50mm-f1.4\"\n\n[view]\n\
+                exposure = 0.5\noverlay = \"count\"\n\n[background]";
+    let from = text.find("eye =").expect("a camera")..text.find("[background]").expect("one") + 12;
+    std::fs::write(&own, [&text[..from.start], shot, &text[from.end..]].concat()).expect("a scene");
+    let mut random = fastrand::Rng::with_seed(11);
+    let names = scene::BUILTINS.iter().map(|builtin| builtin.name.to_owned());
+    for name in names.chain([own.display().to_string()]) {
+        let scene = SceneRef::new(scene::load(&name).expect("a scene"));
+        let plain = Settings::of_scene(scene.clone());
+        for round in 0..=40 {
+            // In some rounds only some things change, for there are keys that follow from others.
+            let mut settings = changed(&scene, &mut random);
+            let (now, was) = (&mut settings.estimator, &plain.estimator);
+            let mut keep = || round > 9 && random.bool();
+            if keep() {
+                now.camera.vfov_radians = was.camera.vfov_radians;
+            }
+            if keep() {
+                now.camera.metres_per_unit = was.camera.metres_per_unit;
+            }
+            if keep() {
+                now.lens.diameter = was.lens.diameter;
+            }
+            if keep() {
+                now.hole.diameter = was.hole.diameter;
+            }
+            if keep() {
+                now.size = was.size;
+            }
+            if keep() {
+                now.model = was.model;
+            }
+            if round == 40 {
+                settings = plain.clone();
+            }
+            let file = folder.path().join("saved.toml");
+            output::save_scene(&settings, &file).expect("a saved scene");
+            let saved = SceneRef::new(scene::load(&file.display().to_string()).expect("a scene"));
+            let mut again = Settings::of_scene(saved);
+            let brightness = f64::from(again.exposure() / settings.exposure());
+            assert!((brightness - 1.0).abs() < 1e-5, "{name} is {brightness} times as bright");
+            if settings == plain {
+                assert_eq!(again.view, settings.view, "{name}");
+            }
+            again.view.exposure_stops = settings.view.exposure_stops;
+            // How it is sampled is not the scene's.
+            again.samples = settings.samples;
+            let (now, was) = (&mut again.estimator, &settings.estimator);
+            (now.jitter, now.sampler, now.seed) = (was.jitter, was.sampler, was.seed);
+            (now.noise_threshold, now.scene) = (was.noise_threshold, was.scene.clone());
+            assert_eq!(again, settings, "{name}");
+            let text = std::fs::read_to_string(&file).expect("text");
+            assert!(!name.ends_with("own.toml") || text.contains("# from here") == (settings == plain));
+        }
+    }
+}
+
+/// Catches meshes that are not found from another folder, and a stage around a mesh that is not the same in a file.
+#[test]
+fn a_saved_mesh_is_found_from_anywhere() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    std::fs::create_dir(folder.join("deep")).expect("a folder");
+    let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    std::fs::write(folder.join("some.obj"), obj).expect("a mesh");
+    let small = ["-s", "60x40", "-n", "4"];
+    let save = |arguments: &[&str]| {
+        let outcome = run(folder, &[&["save"], arguments].concat());
+        assert_eq!(outcome.code, 0, "{}", outcome.stderr);
+    };
+    save(&["some.obj", "--f-number", "1.4", "-o", "here.toml"]);
+    save(&["here.toml", "-o", "deep/there.toml"]);
+    save(&["deep/there.toml", "-o", "again.toml"]);
+    let text = |name: &str| std::fs::read_to_string(folder.join(name)).expect("text");
+    assert!(text("here.toml").contains("file = \"some.obj\""), "{}", text("here.toml"));
+    assert_eq!(text("here.toml"), text("again.toml"));
+    let of = |name: &str| decode_png(&render(folder, &[&[name], &small[..]].concat(), "a.png")).1;
+    let mesh =
+        decode_png(&render(folder, &[&["some.obj", "--f-number", "1.4"], &small[..]].concat(), "a.png")).1;
+    assert!(of("here.toml") == of("deep/there.toml"));
+    // The mesh's place is rounded.
+    let differ =
+        mesh.iter().zip(&of("here.toml")).filter(|(a, b)| (0..3).any(|i| a[i].abs_diff(b[i]) > 2)).count();
+    assert!(differ < 24, "{differ} pixels differ");
+
+    for (arguments, code, message) in [
+        (&["version-4", "-o", "a.txt"][..], 2, "is a .toml"),
+        (&["version-4", "-o", "nowhere/a.toml"], 1, "cannot write"),
+        (&["nothing", "-o", "a.toml"], 2, "nothing"),
+    ] {
+        let outcome = run(folder, &[&["save"], arguments].concat());
+        assert_eq!(outcome.code, code, "{arguments:?}: {}", outcome.stderr);
+        assert!(outcome.stderr.contains(message), "{arguments:?}: {}", outcome.stderr);
     }
 }
 

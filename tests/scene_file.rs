@@ -1,7 +1,8 @@
 //! Scene files: what they mean, and where their errors point.
 
 use thinlens::error::Error;
-use thinlens::scene::{self, BUILTINS, LightKind};
+use thinlens::scene::{self, BUILTINS, CameraModel, LightKind, Overlay, SceneRef, View};
+use thinlens::settings::Settings;
 
 /// A valid file; every error below is one line changed or added.
 const VALID: &str = r#"size = [64, 48]
@@ -74,6 +75,38 @@ fn a_file_means_what_it_says() {
     assert_eq!(blue.checker.expect("a checker").odd_color.to_array(), [1.0; 3]);
 }
 
+/// Catches a view that is read and forgotten, and a preset that does not give the lens and the field of view, or that
+/// wins over what is said beside it.
+#[test]
+fn a_file_says_how_the_picture_is_shown_and_with_which_lens() {
+    let with = |camera: &str| {
+        let text = VALID.replacen("vfov_degrees = 60\n", "", 1).replacen("lens_diameter = 0.1\n", camera, 1);
+        load(&format!(
+            "{text}[view]\nexposure = -1.5\nexposure_lock = false\noverlay = \"depth\"\ntolerance = 2\n"
+        ))
+        .expect("valid")
+    };
+    let scene = with("preset = \"50mm-f1.4\"\n");
+    let view = View {
+        exposure_stops: -1.5,
+        exposure_lock: false,
+        overlay: Some(Overlay::Depth),
+        tolerance: 2.0,
+        ..View::default()
+    };
+    assert_eq!(scene.view, view);
+    assert_eq!(Settings::of_scene(SceneRef::new(with("preset = \"50mm-f1.4\"\n"))).view, view);
+    assert!((scene.camera.focal_length_mm() - 50.0).abs() < 1e-9);
+    assert!((scene.camera.f_number(scene.lens.diameter) - 1.4).abs() < 1e-6);
+    let scene = with("preset = \"50mm-f1.4\"\nf_number = 4\nvfov_degrees = 40\n");
+    assert!((scene.camera.vfov_degrees() - 40.0).abs() < 1e-9);
+    assert!((scene.camera.f_number(scene.lens.diameter) - 4.0).abs() < 1e-6);
+    let scene = with("preset = \"pinhole\"\nvfov_degrees = 40\n");
+    assert_eq!((scene.model, scene.lens.diameter), (CameraModel::Pinhole, 0.0));
+    let scene = with("preset = \"pinhole\"\nvfov_degrees = 40\nmodel = \"thin-lens\"\nlens_diameter = 3\n");
+    assert_eq!((scene.model, scene.lens.diameter), (CameraModel::ThinLens, 3.0));
+}
+
 /// Catches errors that point nowhere, and mistakes that pass as something else.
 #[test]
 fn an_error_names_its_line_and_what_would_be_right() {
@@ -95,6 +128,17 @@ fn an_error_names_its_line_and_what_would_be_right() {
         ("[[0, 0, -9]", with("[1, 0, -9]", "[0, 0, -9]"), "one line"),
         ("[1, 0]", with("[1, 0, 0]", "[1, 0]"), "[r, g, b]"),
         ("[camera]", with("vfov_degrees = 60\n", ""), "vfov_degrees, or view_distance"),
+        ("\"50mm\"", with("vfov_degrees = 60", "preset = \"50mm\""), "50mm-f1.8, 50mm-f1.4"),
+        ("[camera]", with("vfov_degrees = 60", "preset = \"eye-2mm\""), "has a field of view"),
+        (
+            "\"lens\"",
+            with("vfov_degrees = 60", "vfov_degrees = 60\nmodel = \"lens\""),
+            "thin-lens, pinhole, hole",
+        ),
+        ("[camera]", with("vfov_degrees = 60", "vfov_degrees = 60\nmetres_per_unit = 0"), "from 1e-15"),
+        ("[camera]", with("lens_diameter = 0.1\n", ""), "lens_diameter, f_number or a preset"),
+        ("\"blur\"", with("[camera]", "[view]\noverlay = \"blur\"\n[camera]"), "circle-of-confusion, depth"),
+        ("exposures", with("[camera]", "[view]\nexposures = 1\n[camera]"), "exposure"),
         ("[camera]", with("look_at = [0, 0, -1]", "look_at = [0, 0, 0]"), "same point"),
         ("[camera]", with("look_at = [0, 0, -1]", "look_at = [0, -1, 0]"), "line of sight"),
         ("[64, 0]", with("[64, 48]", "[64, 0]"), "from 1 to 16384"),

@@ -4,7 +4,7 @@ use super::ui::Action;
 use imgui::{Condition, Key, Ui};
 
 /// What hand and keys do, for people.
-const LIST: [(&str, &str); 17] = [
+const LIST: [(&str, &str); 18] = [
     ("Right click, F", "focus on what is under the pointer"),
     ("Ctrl + wheel", "move the focal plane"),
     ("Click", "draw the optics of this pixel"),
@@ -19,6 +19,7 @@ const LIST: [(&str, &str); 17] = [
     ("Ctrl + Z", "undo"),
     ("Ctrl + Shift + Z, Ctrl + Y", "redo"),
     ("Ctrl + S", "save the picture"),
+    ("Ctrl + Shift + S", "save the scene"),
     ("Ctrl + C", "copy the command line that renders it"),
     ("Tab, arrows, Space", "walk through the panel; Ctrl + click types a number"),
     ("?, F1", "this list"),
@@ -56,9 +57,13 @@ pub(super) fn pressed(ui: &Ui, modifiers: Modifiers) -> Option<Action> {
         return Some(Action::Keys);
     }
     let chosen = if modifiers.ctrl {
-        let undo = if modifiers.shift { Action::Redo } else { Action::Undo };
+        let [undo, save] = if modifiers.shift {
+            [Action::Redo, Action::SaveScene]
+        } else {
+            [Action::Undo, Action::SavePicture]
+        };
         let again = [(Key::Z, undo), (Key::Y, Action::Redo)];
-        let once = [(Key::S, Action::SavePicture), (Key::C, Action::CopyCommand)];
+        let once = [(Key::S, save), (Key::C, Action::CopyCommand)];
         let again = again.into_iter().find(|(key, _)| ui.is_key_pressed(*key));
         again.or_else(|| once.into_iter().find(|(key, _)| pressed(*key)))
     } else {

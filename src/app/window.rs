@@ -346,6 +346,7 @@ impl Open {
             Action::Optics => self.panel.optics.open ^= true,
             Action::Keys => self.panel.keys ^= true,
             Action::CopyCommand => self.panel.say("The command line is in the clipboard.".into()),
+            Action::SaveScene => self.panel.save_scene(),
             Action::SavePicture => {
                 match self.graphics.save(&self.panel.settings, Path::new(self.panel.picture_file())) {
                     Ok(()) => self.panel.picture_is_saved(),

@@ -41,6 +41,8 @@ pub enum Command {
     Render(RenderArgs),
     /// Render a sheet of pictures side by side: of several f-numbers, lens diameters or focal distances
     Sweep(SweepArgs),
+    /// Save a scene as a file, with the camera, the lens and the view that options give it
+    Save(SaveArgs),
     /// Prove a device: hold what it renders against the same mathematics in f64, sample by sample
     Verify(VerifyArgs),
     /// Measure a device: throughput, first picture, and how the error falls, for every sampler
@@ -128,6 +130,24 @@ pub struct SweepArgs {
     /// Say nothing but warnings and errors
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+/// `thinlens save`.
+#[derive(Debug, Args)]
+#[command(
+    mut_arg("samples", |samples| samples.hide(true)),
+    mut_arg("sampler", |sampler| sampler.hide(true)),
+    mut_arg("seed", |seed| seed.hide(true)),
+    mut_arg("jitter", |jitter| jitter.hide(true)),
+    mut_arg("noise_threshold", |threshold| threshold.hide(true))
+)]
+pub struct SaveArgs {
+    /// What to save. How it is sampled is not part of a scene.
+    #[command(flatten)]
+    pub settings: SettingsArgs,
+    /// The scene file
+    #[arg(short, long, value_name = "OUT.toml")]
+    pub output: PathBuf,
 }
 
 /// `thinlens verify`.

@@ -51,6 +51,19 @@ pub fn save(renderer: &mut Renderer, settings: &Settings, path: &Path) -> Result
     write_picture(renderer, &settings, format, PendingFile::create(path)?)
 }
 
+/// Saves settings as a scene file: [`Settings::scene_file`].
+///
+/// # Errors
+/// [`Error::OutOfRange`] for a name that is no scene's, [`Error::Write`], or of reading the scene's own file.
+pub fn save_scene(settings: &Settings, path: &Path) -> Result<()> {
+    if path.extension().is_none_or(|extension| extension != "toml") {
+        return Err(Error::OutOfRange(format!("a scene file is a .toml; {} is not", path.display())));
+    }
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let text = settings.scene_file(folder.unwrap_or(Path::new(".")))?;
+    PendingFile::create(path)?.write(text.as_bytes())
+}
+
 /// Writes the picture that a renderer has, and the settings that it is of.
 ///
 /// # Errors

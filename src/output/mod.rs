@@ -9,7 +9,7 @@ mod sheet;
 mod stats;
 mod sweep;
 
-pub use file::{PictureFormat, save, write_exr, write_picture, write_png};
+pub use file::{PictureFormat, save, save_scene, write_exr, write_picture, write_png};
 pub use headless::{Job, render, render_instead};
 pub use list::{list_devices, list_scenes};
 pub use origin::Origin;

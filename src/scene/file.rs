@@ -2,10 +2,10 @@
 
 use super::format::SceneFile;
 use super::mesh::Mesh;
-use super::{BUILTINS, Scene, stage};
+use super::{BUILTINS, Builtin, Scene, stage};
 use crate::error::{Error, Result};
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// What is wrong, and where in the text.
 pub(super) struct Fault {
@@ -25,22 +25,58 @@ pub fn load(scene: &str) -> Result<Scene> {
     Ok(loaded)
 }
 
-fn load_named(scene: &str) -> Result<Scene> {
-    if let Some(builtin) = BUILTINS.iter().find(|builtin| builtin.name == scene) {
-        return parse(builtin.name, builtin.name, builtin.toml);
-    }
-    let path = Path::new(scene);
-    match path.extension() {
-        Some(extension) if extension == "toml" => {
-            let read = std::fs::read_to_string(path);
-            let text = read.map_err(|source| Error::Read { path: path.to_path_buf(), source })?;
-            parse(&path.file_stem().unwrap_or_default().to_string_lossy(), scene, &text)
+/// What a name stands for.
+enum Source<'a> {
+    Builtin(&'static Builtin),
+    SceneFile(&'a Path),
+    Mesh(&'a Path),
+}
+
+impl<'a> Source<'a> {
+    fn named(scene: &'a str) -> Result<Self> {
+        if let Some(builtin) = BUILTINS.iter().find(|builtin| builtin.name == scene) {
+            return Ok(Self::Builtin(builtin));
         }
-        Some(extension) if extension.eq_ignore_ascii_case("obj") => {
+        let path = Path::new(scene);
+        match path.extension() {
+            Some(extension) if extension == "toml" => Ok(Self::SceneFile(path)),
+            Some(extension) if extension.eq_ignore_ascii_case("obj") => Ok(Self::Mesh(path)),
+            _ => Err(unknown(scene)),
+        }
+    }
+}
+
+fn load_named(scene: &str) -> Result<Scene> {
+    match Source::named(scene)? {
+        Source::Builtin(builtin) => parse(builtin.name, builtin.name, builtin.toml),
+        Source::SceneFile(path) => {
+            parse(&path.file_stem().unwrap_or_default().to_string_lossy(), scene, &read(path)?)
+        }
+        Source::Mesh(path) => {
             stage::around(&Mesh::read(path)?, &path.file_name().unwrap_or_default().to_string_lossy())
         }
-        _ => Err(unknown(scene)),
     }
+}
+
+/// The text of a scene's file, and the folder that it sees others from. That of a mesh is of the stage that is
+/// made around it.
+///
+/// # Errors
+/// As [`load`].
+pub fn text_of(scene: &str) -> Result<(String, PathBuf)> {
+    let folder = |path: &Path| path.parent().unwrap_or(Path::new("")).to_path_buf();
+    match Source::named(scene)? {
+        Source::Builtin(builtin) => Ok((builtin.toml.to_owned(), PathBuf::new())),
+        Source::SceneFile(path) => Ok((read(path)?, folder(path))),
+        Source::Mesh(path) => {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            Ok((stage::scene_file(&Mesh::read(path)?, &name)?, folder(path)))
+        }
+    }
+}
+
+fn read(path: &Path) -> Result<String> {
+    std::fs::read_to_string(path).map_err(|source| Error::Read { path: path.to_path_buf(), source })
 }
 
 fn parse(name: &str, file: &str, text: &str) -> Result<Scene> {

@@ -9,6 +9,23 @@ use crate::error::Result;
 use glam::{DVec3, Vec3};
 use std::ops::RangeInclusive;
 
+const MAX_BOUNCES: u32 = 5;
+const HORIZON: Vec3 = Vec3::new(0.92, 0.9, 0.87);
+const ZENITH: Vec3 = Vec3::new(0.24, 0.44, 0.78);
+const AMBIENT: Vec3 = Vec3::new(0.24, 0.27, 0.32);
+/// A warm key light with shadows from the left, a cool fill light without from the right.
+const LIGHTS: [Light; 2] = [
+    Light {
+        kind: LightKind::Directional(Vec3::new(-0.5, 1.0, 0.65)),
+        radiance: Vec3::new(2.5, 2.35, 2.1),
+        shadows: true,
+    },
+    Light {
+        kind: LightKind::Directional(Vec3::new(1.0, 0.35, 0.3)),
+        radiance: Vec3::new(0.4, 0.46, 0.55),
+        shadows: false,
+    },
+];
 const SIZE: [u32; 2] = [1280, 720];
 const VFOV_DEGREES: f64 = 34.0;
 /// From the mesh to the eye: a three-quarter view from a little above, which shows the horizon.
@@ -28,30 +45,46 @@ const GAP: f64 = 1e-3;
 /// Sizes of a mesh: the lengths of the scene around it stay within MIN_LENGTH and MAX_LENGTH by far.
 const DIAGONALS: RangeInclusive<f64> = 1e-4..=1e7;
 
+/// Where a mesh stands.
+struct Ground {
+    /// Edge of its squares.
+    square: f64,
+    height: f64,
+    /// Where the mesh is moved.
+    position: DVec3,
+}
+
+impl Ground {
+    /// Below the mesh.
+    fn new(mesh: &Mesh) -> Result<Self> {
+        let [lower, upper] = mesh.bounds();
+        let extent = upper - lower;
+        let diagonal = extent.length();
+        if !DIAGONALS.contains(&diagonal) {
+            let (low, high) = (DIAGONALS.start(), DIAGONALS.end());
+            let message = format!(
+                "it is {diagonal:.1e} across, but must be from {low:e} to {high:e}; put it into a scene file with \
+                 a scale"
+            );
+            return Err(mesh.fault(message));
+        }
+        // In the middle of a layer of the ground's checker, no rounding changes its colours.
+        let square = SQUARE * diagonal;
+        let height = 0.5 * square;
+        let foot = DVec3::new(lower.x + 0.5 * extent.x, lower.y, lower.z + 0.5 * extent.z);
+        Ok(Self { square, height, position: DVec3::Y * (height + GAP * diagonal) - foot })
+    }
+}
+
 /// The scene. Its lengths are those of the mesh's file; the mesh is moved onto the ground.
 ///
 /// # Errors
 /// Those of [`Mesh::add_to`]; `Error::Mesh` for a mesh so small or large that f32 cannot show it.
 pub(super) fn around(mesh: &Mesh, name: &str) -> Result<Scene> {
+    let ground = Ground::new(mesh)?;
+    let placement = Placement::new(1.0, DVec3::ZERO, ground.position);
     let [lower, upper] = mesh.bounds();
-    let extent = upper - lower;
-    let diagonal = extent.length();
-    if !DIAGONALS.contains(&diagonal) {
-        let (low, high) = (DIAGONALS.start(), DIAGONALS.end());
-        let message = format!(
-            "it is {diagonal:.1e} across, but must be from {low:e} to {high:e}; put it into a scene file with a \
-             scale"
-        );
-        return Err(mesh.fault(message));
-    }
-    // In the middle of a layer of the ground's checker, no rounding changes its colours.
-    let square = SQUARE * diagonal;
-    let ground = 0.5 * square;
-    let foot = DVec3::new(lower.x + 0.5 * extent.x, lower.y, lower.z + 0.5 * extent.z);
-    let lowest = ground + GAP * diagonal;
-    let placement = Placement::new(1.0, DVec3::ZERO, DVec3::Y * lowest - foot);
-
-    let camera = camera(DVec3::Y * (lowest + 0.5 * extent.y), 0.5 * extent);
+    let camera = camera(ground.position + 0.5 * (lower + upper), 0.5 * (upper - lower));
     let mut scene = Scene {
         name: name.to_owned(),
         source: String::new(),
@@ -63,16 +96,16 @@ pub(super) fn around(mesh: &Mesh, name: &str) -> Result<Scene> {
         size: SIZE,
         shutter: DEFAULT_SHUTTER,
         view: View::default(),
-        max_bounces: 5,
-        background: Background { horizon: Vec3::new(0.92, 0.9, 0.87), zenith: Vec3::new(0.24, 0.44, 0.78) },
-        ambient: Vec3::new(0.24, 0.27, 0.32),
-        lights: lights(),
-        materials: vec![floor(square as f32)],
+        max_bounces: MAX_BOUNCES,
+        background: Background { horizon: HORIZON, zenith: ZENITH },
+        ambient: AMBIENT,
+        lights: LIGHTS.to_vec(),
+        materials: vec![floor(ground.square as f32)],
         material_names: vec!["ground".into()],
         spheres: Vec::new(),
         boxes: Vec::new(),
         triangles: Vec::new(),
-        planes: vec![Shaded::still(Plane { point: Vec3::Y * ground as f32, normal: Vec3::Y }, 0)],
+        planes: vec![Shaded::still(Plane { point: Vec3::Y * ground.height as f32, normal: Vec3::Y }, 0)],
     };
     mesh.add_to(&mut scene, &placement, None, Vec3::ZERO)?;
     scene.lens = lens_for(&scene);
@@ -81,6 +114,58 @@ pub(super) fn around(mesh: &Mesh, name: &str) -> Result<Scene> {
     scene.camera.metres_per_unit = frame_metres / F_NUMBER / f64::from(scene.lens.diameter);
     scene.hole.diameter = scene.camera.default_hole_diameter();
     Ok(scene)
+}
+
+/// The same scene as the text of a scene file, whose mesh is called so. There it is placed in f32, and so may lie
+/// a rounding away.
+///
+/// # Errors
+/// As [`around`].
+pub(super) fn scene_file(mesh: &Mesh, file: &str) -> Result<String> {
+    let (scene, ground) = (around(mesh, file)?, Ground::new(mesh)?);
+    let numbers = |vector: Vec3| format!("[{}, {}, {}]", vector.x, vector.y, vector.z);
+    let (camera, floor) = (&scene.camera, &scene.materials[0]);
+    let mut text = format!(
+        "size = [{}, {}]\nmax_bounces = {}\n\n[camera]\neye = {}\nlook_at = {}\nvfov_degrees = {:?}\n\
+         metres_per_unit = {:?}\nlens_diameter = {:?}\nfocal_distance = {:?}\n\n\
+         [background]\nhorizon = {}\nzenith = {}\n\n[ambient]\ncolor = {}\nradiance = 1\n",
+        scene.size[0],
+        scene.size[1],
+        scene.max_bounces,
+        numbers(camera.eye),
+        numbers(camera.look_at),
+        camera.vfov_degrees(),
+        camera.metres_per_unit,
+        scene.lens.diameter,
+        scene.lens.focal_distance,
+        numbers(scene.background.horizon),
+        numbers(scene.background.zenith),
+        numbers(scene.ambient),
+    );
+    for light in &scene.lights {
+        let LightKind::Directional(direction) = light.kind else { continue };
+        text += &format!(
+            "\n[[directional]]\ndirection = {}\ncolor = {}\nradiance = 1\nshadows = {}\n",
+            numbers(direction),
+            numbers(light.radiance),
+            light.shadows
+        );
+    }
+    let odd = floor.checker.map_or(floor.color, |checker| checker.odd_color);
+    text += &format!(
+        "\n[matte.ground]\nka = {}\nkd = {}\ncolor = {{ even = {}, odd = {}, size = {:?} }}\n\
+         \n[[plane]]\npoint = [0, {:?}, 0]\nnormal = [0, 1, 0]\nmaterial = \"ground\"\n\
+         \n[[mesh]]\nfile = {}\nposition = {}\n",
+        floor.ka,
+        floor.kd,
+        numbers(floor.color),
+        numbers(odd),
+        ground.square as f32,
+        ground.height as f32,
+        toml_edit::value(file),
+        numbers(ground.position.as_vec3()),
+    );
+    Ok(text)
 }
 
 /// Looks at a box of this centre and half extent from where all its corners are in the picture.
@@ -118,16 +203,6 @@ fn lens_for(scene: &Scene) -> Lens {
     let blur_of_one = (far - near) / far * 0.5 / (0.5 * scene.camera.vfov_radians).tan();
     let ratio = (FAR_BLUR / blur_of_one).min(WIDEST_LENS);
     Lens { diameter: (ratio * near) as f32, focal_distance: near as f32 }
-}
-
-/// A warm key light with shadows from the left, a cool fill light without from the right.
-fn lights() -> Vec<Light> {
-    let light = |direction: [f32; 3], radiance: [f32; 3], shadows| Light {
-        kind: LightKind::Directional(direction.into()),
-        radiance: radiance.into(),
-        shadows,
-    };
-    vec![light([-0.5, 1.0, 0.65], [2.5, 2.35, 2.1], true), light([1.0, 0.35, 0.3], [0.4, 0.46, 0.55], false)]
 }
 
 fn floor(square: f32) -> Material {

@@ -1,6 +1,7 @@
 //! Everything a user can set, in the two halves that decide when the film starts anew.
 
 mod arguments;
+mod scene_file;
 mod sweep;
 
 pub use sweep::Sweep;

@@ -2,21 +2,25 @@
 
 use super::widgets::{Layout, combo, named, note_item, tooltip};
 use super::{Action, Panel};
+use crate::output;
 use imgui::Ui;
 use std::path::Path;
 
 /// The name that pictures have until another one is typed.
 const PICTURE: &str = "thinlens.png";
+/// Likewise, of scenes.
+const SCENE: &str = "scene.toml";
 
 /// What is typed into the panel's fields.
 pub(super) struct Files {
     open: String,
     picture: String,
+    scene: String,
 }
 
 impl Default for Files {
     fn default() -> Self {
-        Self { open: String::new(), picture: free(PICTURE) }
+        Self { open: String::new(), picture: free(PICTURE), scene: free(SCENE) }
     }
 }
 
@@ -70,6 +74,23 @@ impl Panel {
             Action::CopyCommand,
             "Puts the command that renders this picture into the clipboard (Ctrl+C).",
         );
+        named(
+            ui,
+            "Scene file",
+            "Where the scene is saved, a .toml, with this camera, lens and view. Open it like any other.",
+            layout,
+            |id| {
+                ui.input_text(id, &mut files.scene).build();
+            },
+        );
+        if ui.button("Save scene") {
+            action = Some(Action::SaveScene);
+        }
+        note_item(ui, "Save scene", layout);
+        tooltip(
+            ui,
+            "Writes a scene file with the camera, the lens and the view as they are now (Ctrl+Shift+S).",
+        );
         if let Some(file) = wanted {
             self.open(&file);
         }
@@ -85,6 +106,19 @@ impl Panel {
     pub(in crate::app) fn picture_is_saved(&mut self) {
         self.say(format!("saved {}", self.files.picture));
         self.files.picture = free(&self.files.picture);
+    }
+
+    /// Saves the scene, and says so or why not.
+    pub(in crate::app) fn save_scene(&mut self) {
+        let file = self.files.scene.clone();
+        match output::save_scene(&self.settings, Path::new(&file)) {
+            Ok(()) => {
+                self.say(format!("saved {file}"));
+                self.remember(&file);
+                self.files.scene = free(&file);
+            }
+            Err(error) => self.say(error.to_string()),
+        }
     }
 }
 

@@ -113,6 +113,8 @@ pub(super) enum Action {
     Keys,
     /// Write the picture to the file that is named.
     SavePicture,
+    /// Write the scene to the file that is named.
+    SaveScene,
     /// Put the command that renders the picture into the clipboard.
     CopyCommand,
 }
@@ -331,13 +333,18 @@ impl Panel {
                 self.message = None;
                 self.offer_scene();
                 if !BUILTINS.iter().any(|builtin| builtin.name == name) {
-                    self.recent.retain(|known| known != name);
-                    self.recent.insert(0, name.to_owned());
-                    self.recent.truncate(MOST_RECENT);
+                    self.remember(name);
                 }
             }
             Err(error) => self.message = Some(error.to_string()),
         }
+    }
+
+    /// The file is the latest of those that are offered again.
+    fn remember(&mut self, file: &str) {
+        self.recent.retain(|known| known != file);
+        self.recent.insert(0, file.to_owned());
+        self.recent.truncate(MOST_RECENT);
     }
 
     /// Another scene's settings. How it is sampled stays, and an overlay, unless the scene has its own.

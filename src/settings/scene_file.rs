@@ -1,0 +1,164 @@
+//! Settings as a scene file: the scene's own, with the camera, its lens and the view as they are now.
+
+use super::Settings;
+use crate::error::{Error, Result};
+use crate::scene::{self, CameraModel, Overlay};
+use glam::Vec3;
+use std::path::{Path, PathBuf};
+use toml_edit::{Array, DocumentMut, Item, Table, Value, value};
+
+impl Settings {
+    /// The text of a scene file in this folder that gives this picture, but for how it is sampled. What the
+    /// scene's own file says otherwise stays, comments too. Where brightness is what changed, it goes into
+    /// `exposure`, for a scene's brightness is relative to its own lens and shutter.
+    ///
+    /// # Errors
+    /// Of reading the scene's own file, which may have changed since.
+    pub fn scene_file(&self, folder: &Path) -> Result<String> {
+        let scene = &*self.estimator.scene;
+        let (text, own_folder) = scene::text_of(&scene.source)?;
+        let unusable = |message: String| Error::Scene { file: scene.source.clone(), line: 1, message };
+        let mut document: DocumentMut = text
+            .parse()
+            .map_err(|error: toml_edit::TomlError| unusable(error.message().replace('\n', "; ")))?;
+        let files = Files { from: own_folder, to: folder.to_path_buf() };
+        if self.estimator.size != scene.size {
+            document["size"] = list(self.estimator.size.map(|extent| i64::from(extent).into()));
+        }
+        if self.estimator.max_bounces != scene.max_bounces {
+            document["max_bounces"] = value(i64::from(self.estimator.max_bounces));
+        }
+        let camera = document.get_mut("camera").and_then(Item::as_table_like_mut);
+        let camera = camera.ok_or_else(|| unusable("the file has no [camera] any more".into()))?;
+        self.write_camera(&mut Keys(camera), &files);
+        if let Some(meshes) = document.get_mut("mesh").and_then(Item::as_array_of_tables_mut) {
+            for mesh in meshes.iter_mut() {
+                if let Some(file) = mesh.get("file").and_then(Item::as_str).map(str::to_owned) {
+                    mesh["file"] = value(files.seen(&files.from.join(file)));
+                }
+            }
+        }
+        let mut view = Table::new();
+        if let Some(own) = document.get("view").and_then(Item::as_table) {
+            view = own.clone();
+        }
+        self.write_view(&mut Keys(&mut view));
+        if !view.is_empty() {
+            document["view"] = Item::Table(view);
+        }
+        Ok(document.to_string())
+    }
+
+    fn write_camera(&self, keys: &mut Keys<'_>, files: &Files) {
+        let (estimator, scene) = (&self.estimator, &*self.estimator.scene);
+        let (camera, own) = (&estimator.camera, &scene.camera);
+        keys.vector("eye", camera.eye, own.eye);
+        keys.vector("look_at", camera.look_at, own.look_at);
+        keys.vector("up", camera.up, own.up);
+        keys.change("metres_per_unit", camera.metres_per_unit, own.metres_per_unit, |is| is);
+        // Lengths that the file gives by way of these are given themselves once these change.
+        let resized = estimator.size[1] != scene.size[1] && keys.0.contains_key("view_distance");
+        let units = (camera.vfov_radians, camera.metres_per_unit) != (own.vfov_radians, own.metres_per_unit);
+        let preset = keys.0.contains_key("preset");
+        if camera.vfov_radians != own.vfov_radians || resized || preset {
+            keys.put("vfov_degrees", camera.vfov_degrees(), &["view_distance", "pixel_size"]);
+        }
+        if estimator.model != scene.model || preset {
+            let name = CameraModel::NAMES.iter().find(|(_, model)| *model == estimator.model);
+            keys.put("model", name.map_or("", |(name, _)| name), &[]);
+        }
+        if estimator.lens.diameter != scene.lens.diameter || units || preset {
+            keys.put("lens_diameter", digits(estimator.lens.diameter), &["f_number", "preset"]);
+        }
+        if estimator.hole.diameter != scene.hole.diameter || units {
+            keys.put("hole_diameter", digits(estimator.hole.diameter), &[]);
+        }
+        keys.number("focal_distance", estimator.lens.focal_distance, scene.lens.focal_distance);
+        keys.change("upright", estimator.hole.upright, scene.hole.upright, |is| is);
+
+        let (aperture, own) = (&estimator.aperture, &scene.aperture);
+        keys.change("blades", aperture.blades, own.blades, i64::from);
+        keys.number("blade_rotation_degrees", aperture.rotation_degrees, own.rotation_degrees);
+        keys.number("roundness", aperture.roundness, own.roundness);
+        keys.number("anamorphic", aperture.anamorphic, own.anamorphic);
+        keys.number("cats_eye", aperture.cats_eye, own.cats_eye);
+        match &aperture.image {
+            Some(image) => keys.put("aperture_image", files.seen(Path::new(&image.file)), &[]),
+            None => drop(keys.0.remove("aperture_image")),
+        }
+        keys.number("shutter", estimator.shutter, scene.shutter);
+        keys.number("iso", self.view.iso, scene.view.iso);
+    }
+
+    fn write_view(&self, keys: &mut Keys<'_>) {
+        let (view, own) = (&self.view, &self.estimator.scene.view);
+        let brightness = self.exposure();
+        let relative = brightness != view.exposure_stops.exp2();
+        keys.number(
+            "exposure",
+            if relative { brightness.log2() } else { view.exposure_stops },
+            own.exposure_stops,
+        );
+        keys.change("exposure_lock", view.exposure_lock, own.exposure_lock, |is| is);
+        keys.number("tolerance", view.tolerance, own.tolerance);
+        if view.overlay != own.overlay {
+            match Overlay::NAMES.iter().find(|(_, overlay)| Some(*overlay) == view.overlay) {
+                Some((name, _)) => keys.put("overlay", *name, &[]),
+                None => drop(keys.0.remove("overlay")),
+            }
+        }
+    }
+}
+
+/// A table, of which only what changes is written.
+struct Keys<'a>(&'a mut dyn toml_edit::TableLike);
+
+impl Keys<'_> {
+    /// Writes a key in place of others.
+    fn put(&mut self, key: &str, is: impl Into<Value>, instead_of: &[&str]) {
+        for other in instead_of {
+            self.0.remove(other);
+        }
+        self.0.insert(key, value(is));
+    }
+
+    fn change<T: PartialEq, V: Into<Value>>(&mut self, key: &str, is: T, was: T, as_toml: impl Fn(T) -> V) {
+        if is != was {
+            self.put(key, as_toml(is), &[]);
+        }
+    }
+
+    fn number(&mut self, key: &str, is: f32, was: f32) {
+        self.change(key, is, was, digits);
+    }
+
+    fn vector(&mut self, key: &str, is: Vec3, was: Vec3) {
+        if is != was {
+            self.0.insert(key, list(is.to_array().map(|part| digits(part).into())));
+        }
+    }
+}
+
+/// The number of as few digits that comes back as this f32.
+fn digits(number: f32) -> f64 {
+    number.to_string().parse().unwrap_or(f64::from(number))
+}
+
+fn list<const N: usize>(values: [Value; N]) -> Item {
+    value(values.into_iter().collect::<Array>())
+}
+
+/// Where a scene's files are seen from.
+struct Files {
+    from: PathBuf,
+    to: PathBuf,
+}
+
+impl Files {
+    /// How a file is called in the new scene: from its folder if it lies in there, else by its whole path.
+    fn seen(&self, file: &Path) -> String {
+        let whole = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+        let (file, folder) = (whole(file), whole(&self.to));
+        file.strip_prefix(&folder).unwrap_or(&file).display().to_string()
+    }
+}
