@@ -239,6 +239,46 @@ fn what_is_saved_renders_again() {
     viewer.close();
 }
 
+/// Catches scenes that are saved with another camera or lens than is shown, and files that cannot be dropped on the
+/// window, or whose failure is not survived.
+#[test]
+fn scenes_and_pictures_are_saved_and_dropped() {
+    let viewer = Viewer::start(SIZE, &["-n", "3"]);
+    viewer.wait_until_done();
+    let (start, plain) = (*viewer.camera.borrow(), *viewer.state.borrow());
+    viewer.until(
+        "orbiting",
+        |viewer| *viewer.camera.borrow() != start,
+        || {
+            viewer.drag_picture(1, [600, 400], [570, 410]);
+        },
+    );
+    viewer.drag("Lens diameter", &[0.125, 0.2, 0.25], |viewer| viewer.state.borrow()[0] > plain[0]);
+    viewer.wait_until_done();
+    let (turned, wide) = (*viewer.camera.borrow(), *viewer.state.borrow());
+    let saved = viewer.folder.join("scene.toml");
+    viewer.until("saving", |_| saved.exists(), || viewer.press("ctrl+shift+s"));
+    viewer.expect_picture("the saved scene", 0, &["-n", "3", &saved.display().to_string()]);
+
+    let is =
+        |viewer: &Viewer, camera, state| *viewer.camera.borrow() == camera && *viewer.state.borrow() == state;
+    let picture = viewer.folder.join("plain.png");
+    std::fs::write(&picture, render_png(&viewer.folder, &["-n", "3", "-s", "40x30"])).expect("a picture");
+    viewer.drop_file(&picture);
+    viewer.wait_for("the picture's scene", |viewer| is(viewer, start, plain));
+    viewer.drop_file(&saved);
+    viewer.wait_for("the saved scene", |viewer| is(viewer, turned, wide));
+    viewer.wait_until_done();
+    viewer.expect_picture("the saved scene", 0, &["-n", "3", &saved.display().to_string()]);
+    let broken = viewer.folder.join("broken.toml");
+    std::fs::write(&broken, "size = 3").expect("a file");
+    viewer.drop_file(&broken);
+    let says = |viewer: &Viewer| viewer.message.borrow().contains("broken.toml:1");
+    viewer.wait_for("why it cannot be opened", says);
+    assert!(is(&viewer, turned, wide), "a file that cannot be opened changes the scene");
+    viewer.close();
+}
+
 /// Catches a viewer that forgets, and one whose Reset goes back to what it remembers.
 #[test]
 fn the_next_time_everything_is_as_it_was() {

@@ -9,9 +9,15 @@ use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
+use x11rb::CURRENT_TIME;
 use x11rb::connection::Connection;
-use x11rb::protocol::xproto::{ClientMessageEvent, ConnectionExt, EventMask, ImageFormat, Window};
+use x11rb::protocol::Event;
+use x11rb::protocol::xproto::{
+    ClientMessageEvent, ConnectionExt, CreateWindowAux, EventMask, ImageFormat, PropMode,
+    SELECTION_NOTIFY_EVENT, SelectionNotifyEvent, Window, WindowClass,
+};
 use x11rb::rust_connection::RustConnection;
+use x11rb::wrapper::ConnectionExt as _;
 
 /// Right of the panel.
 const PICTURE_LEFT: usize = 340;
@@ -43,6 +49,8 @@ pub struct Viewer {
     pub view: RefCell<String>,
     /// The pixel whose optics were drawn last, and p there: right, up, depth.
     pub diagram: RefCell<Option<([f32; 2], [f64; 3])>>,
+    /// What the panel said last.
+    pub message: RefCell<String>,
     /// What is allocated on the device: names and bytes.
     pub memory: RefCell<Vec<(String, u64)>>,
     /// All samples that were shown, since it was cleared last.
@@ -121,6 +129,7 @@ impl Viewer {
             camera: RefCell::default(),
             view: RefCell::default(),
             diagram: RefCell::default(),
+            message: RefCell::default(),
             memory: RefCell::default(),
             history: RefCell::default(),
             display,
@@ -160,6 +169,9 @@ impl Viewer {
             let p =
                 numbers(p.trim_end_matches(']').replace(',', "").as_str()).try_into().expect("three numbers");
             *self.diagram.borrow_mut() = Some((pixel, p));
+        }
+        if let Some(message) = line.split("] message ").nth(1) {
+            message.clone_into(&mut self.message.borrow_mut());
         }
         if let Some(view) = line.split("] view ").nth(1) {
             view.clone_into(&mut self.view.borrow_mut());
@@ -332,19 +344,64 @@ impl Viewer {
         }
     }
 
-    /// Asks the window to close, as a window manager does, and waits for the end.
-    pub fn close(mut self) {
-        let atom = |name: &[u8]| {
-            self.connection.intern_atom(false, name).expect("a request").reply().expect("an atom").atom
-        };
-        let (protocols, delete) = (atom(b"WM_PROTOCOLS"), atom(b"WM_DELETE_WINDOW"));
+    fn atom(&self, name: &str) -> u32 {
+        self.connection.intern_atom(false, name.as_bytes()).expect("a request").reply().expect("an atom").atom
+    }
+
+    /// Sends a message to every window of the display, of which the viewer's is the one that understands it.
+    fn tell(&self, name: &str, data: [u32; 5]) {
+        let message = self.atom(name);
         let windows =
             self.connection.query_tree(self.root).expect("a request").reply().expect("the windows").children;
         for window in windows {
-            let event = ClientMessageEvent::new(32, window, protocols, [delete, 0, 0, 0, 0]);
+            let event = ClientMessageEvent::new(32, window, message, data);
             self.connection.send_event(false, window, EventMask::NO_EVENT, event).expect("a request");
         }
         self.connection.flush().expect("a connection");
+    }
+
+    /// Drops a file on the window, as a file manager does by the XDND protocol.
+    pub fn drop_file(&self, file: &Path) {
+        let connection = &self.connection;
+        let source = connection.generate_id().expect("an id");
+        let plain = CreateWindowAux::new();
+        let input_only = WindowClass::INPUT_ONLY;
+        connection
+            .create_window(0, source, self.root, -1, -1, 1, 1, 0, input_only, 0, &plain)
+            .expect("a request");
+        let (selection, uris) = (self.atom("XdndSelection"), self.atom("text/uri-list"));
+        connection.set_selection_owner(source, selection, CURRENT_TIME).expect("a request");
+        self.tell("XdndEnter", [source, 5 << 24, uris, 0, 0]);
+        let copies = self.atom("XdndActionCopy");
+        self.tell("XdndPosition", [source, 0, 500 << 16 | 300, CURRENT_TIME, copies]);
+        let wanted = loop {
+            if let Event::SelectionRequest(wanted) = connection.wait_for_event().expect("an event") {
+                break wanted;
+            }
+        };
+        let uri = format!("file://{}\r\n", file.display());
+        let (window, property) = (wanted.requestor, wanted.property);
+        connection
+            .change_property8(PropMode::REPLACE, window, property, wanted.target, uri.as_bytes())
+            .expect("a request");
+        let answer = SelectionNotifyEvent {
+            response_type: SELECTION_NOTIFY_EVENT,
+            sequence: 0,
+            time: wanted.time,
+            requestor: window,
+            selection,
+            target: wanted.target,
+            property,
+        };
+        connection.send_event(false, window, EventMask::NO_EVENT, answer).expect("a request");
+        self.tell("XdndDrop", [source, 0, CURRENT_TIME, 0, 0]);
+        connection.destroy_window(source).expect("a request");
+        connection.flush().expect("a connection");
+    }
+
+    /// Asks the window to close, as a window manager does, and waits for the end.
+    pub fn close(mut self) {
+        self.tell("WM_PROTOCOLS", [self.atom("WM_DELETE_WINDOW"), 0, 0, 0, 0]);
         let deadline = Instant::now() + PATIENCE;
         let status = loop {
             if let Some(status) = self.program.0.try_wait().expect("a process") {

@@ -251,6 +251,7 @@ impl Panel {
 
     /// Shows a message until there is another one.
     pub(super) fn say(&mut self, message: String) {
+        log::debug!("message {message}");
         self.message = Some(message);
     }
 
@@ -286,7 +287,7 @@ impl Panel {
 
     /// The renderer did not: back to what it took last, and say why.
     pub(super) fn refuse(&mut self, error: &Error) {
-        self.message = Some(error.to_string());
+        self.say(error.to_string());
         let size = self.settings.estimator.size;
         self.settings = self.accepted.clone();
         self.settings.estimator.size = size;
@@ -336,7 +337,7 @@ impl Panel {
                     self.remember(name);
                 }
             }
-            Err(error) => self.message = Some(error.to_string()),
+            Err(error) => self.say(error.to_string()),
         }
     }
 
