@@ -234,6 +234,7 @@ impl Open {
         style.frame_padding = [8.0, 4.0];
         style.item_spacing = [8.0, 6.0];
         style.colors[imgui::StyleColor::WindowBg as usize] = [0.08, 0.09, 0.11, 0.88];
+        style.colors[imgui::StyleColor::TitleBg as usize] = [0.12, 0.19, 0.29, 0.95];
         style.colors[imgui::StyleColor::PopupBg as usize] = [0.08, 0.09, 0.11, 0.98];
         style.colors[imgui::StyleColor::PlotHistogram as usize] = [0.20, 0.45, 0.80, 1.0];
     }

@@ -28,6 +28,8 @@ const HEAD: f32 = 24.0;
 const FOOT: f32 = 18.0;
 /// Between the views, in points.
 const GAP: f32 = 6.0;
+/// About the width of a letter.
+const LETTER: f32 = 8.0;
 /// Rays that can be drawn.
 const RAYS: [u32; 2] = [3, 65];
 
@@ -172,9 +174,13 @@ impl Optics {
             }
             paper.title(if side == View::Side { "Side" } else { "Top" });
             paper.scale_bar();
-            paper.foot(diagram.view_plane, "view plane", FAINT);
+            let label = "view plane";
+            let room = LETTER * (label.len() + 1) as f32;
+            let at = |depth: f64| paper.place(DVec3::new(0.0, 0.0, depth))[0];
+            let next = diagram.focus.as_ref().map_or(f32::INFINITY, |(depth, _)| at(*depth));
+            paper.foot(diagram.view_plane, label, FAINT, next - at(diagram.view_plane) < room);
             if let Some((depth, _)) = diagram.focus {
-                paper.foot(depth, "focal plane", FOCUS);
+                paper.foot(depth, "focal plane", FOCUS, false);
             }
         });
     }
@@ -243,7 +249,7 @@ fn film_side(mut paper: Paper<'_>, diagram: &Diagram) {
         paper.upright(-v, [image.p.y - half, image.p.y + half], BLUR, 4.0);
         paper.title("Behind the lens: film and circle of confusion");
         paper.scale_bar();
-        paper.foot(-v, "film", FAINT);
+        paper.foot(-v, "film", FAINT, false);
     });
 }
 
@@ -353,10 +359,11 @@ impl<'a> Paper<'a> {
         self.list.add_text([self.min[0] + 6.0, self.min[1] + 3.0], TEXT, text);
     }
 
-    /// Names what stands at a depth, at the paper's foot.
-    fn foot(&self, depth: f64, text: &str, color: Color) {
+    /// Names what stands at a depth, at the paper's foot, right or left of it.
+    fn foot(&self, depth: f64, text: &str, color: Color, left: bool) {
         let [x, _] = self.place(DVec3::new(0.0, 0.0, depth));
-        self.list.add_text([x + 5.0, self.max[1] - 20.0], color, text);
+        let aside = if left { -5.0 - LETTER * text.len() as f32 } else { 5.0 };
+        self.list.add_text([x + aside, self.max[1] - 20.0], color, text);
     }
 
     /// A round length, at the upper right.
@@ -368,7 +375,7 @@ impl<'a> Paper<'a> {
         let left = right - (round * self.scale[0]) as f32;
         self.list.add_line([left, y], [right, y], FAINT).thickness(2.0).build();
         let text = round.to_string();
-        let width = 8.0 * text.len() as f32;
+        let width = LETTER * text.len() as f32;
         self.list.add_text([right - width, self.min[1] + 4.0], FAINT, text);
     }
 }
