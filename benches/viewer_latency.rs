@@ -4,7 +4,8 @@
 //! plane to and fro, 125 times a second as a mouse reports, without a pause. It is measured on the
 //! screen: a frame shows the slider's knob and the picture of one and the same setting, so an event is
 //! answered once the knob is where the event put it. The viewer's log says how long a frame took from
-//! the first event that it answers to handing the picture over.
+//! the first event that it answers to handing the picture over. With `--all-open` every section of the panel is
+//! unfolded, and the drawing of the optics open.
 
 #[path = "../tests/common/mod.rs"]
 mod common;
@@ -103,13 +104,25 @@ fn waits(sweep: &[Seen], shown: &[Seen]) -> Vec<f64> {
         .collect()
 }
 
+/// Unfolds all of the panel, from below, for what unfolds moves what is under it; and opens the optics.
+fn open_all(viewer: &Viewer) {
+    for section in ["Device", "Files", "View", "Sampling", "Light", "Viewpoint", "Aperture shape", "Lens"] {
+        viewer.click_once(section);
+    }
+    viewer.click("Optics", |viewer| viewer.diagram.borrow().is_some());
+}
+
 fn main() {
     let scene = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
     let scene = scene.unwrap_or_else(|| "version-4".into());
+    let all_open = std::env::args().any(|argument| argument == "--all-open");
     let viewer = Viewer::start_as_user(SIZE, &[&scene, "-n", "256"]);
+    viewer.wait_for("first picture", |viewer| viewer.shown.borrow().0 > 1);
+    if all_open {
+        open_all(&viewer);
+    }
     let control = viewer.controls.borrow()[CONTROL];
     let display = viewer.display.clone();
-    viewer.wait_for("first picture", |viewer| viewer.shown.borrow().0 > 1);
     while viewer.listen(Duration::ZERO).is_some() {}
 
     let (sweeps, shown) = std::thread::scope(|scope| {
@@ -137,7 +150,8 @@ fn main() {
     let (start, end) = (sweeps[0][0].at, sweeps.iter().flatten().last().expect("events").at);
     let seconds = (end - start).as_secs_f64();
     let settings = shown.iter().filter(|seen| seen.at >= start && seen.at <= end).count();
-    println!("{scene}, {}x{}, {events} events in {seconds:.1} s", SIZE[0], SIZE[1]);
+    let panels = if all_open { ", all panels open" } else { "" };
+    println!("{scene}, {}x{}{panels}, {events} events in {seconds:.1} s", SIZE[0], SIZE[1]);
     println!("event to screen:   {}", summary(outside.clone()));
     println!("event to handover: {}", summary(inside));
     println!("settings shown:    {:.1} a second", settings as f64 / seconds);

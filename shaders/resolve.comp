@@ -73,7 +73,9 @@ void main() {
     if (!inside(first, push.extent)) {
         return;
     }
-    vec4 film = film_at(ivec2(cell));
+    // A cell at the right or lower edge may have no texel of its own: the one before it has the nearest.
+    ivec2 last_cell = (ivec2(push.extent) - 1 - site_of(ivec2(0))) / int(push.preview_stride);
+    vec4 film = film_at(min(ivec2(cell), last_cell));
     if (HAS_HOLES == 1u && film.w == 0.0) {
         film = nearest_sampled(ivec2(cell));
     }

@@ -320,9 +320,7 @@ impl Renderer {
         let exposure = settings.exposure();
         let overlay = OverlayScale::new(settings);
         let push = ResolvePush { extent, preview_stride, exposure, overlay, blue_first: blue_first.into() };
-        // A cell of the preview at the picture's edge may have no texel of its own.
-        let has_holes =
-            preview_stride > 1 || reach(settings.estimator.jitter) > 0 || self.tally.saw_rejected_samples();
+        let has_holes = reach(settings.estimator.jitter) > 0 || self.tally.saw_rejected_samples();
         if self.resolved == Some((push, has_holes)) {
             return;
         }
