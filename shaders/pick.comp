@@ -30,14 +30,14 @@ layout(push_constant, std430) uniform PickPush {
 
 layout(set = 0, binding = 0, std430) writeonly buffer PickedRays { PickedRay picked[]; };
 
-// The point of the lens, of radius one, of a ray through its centre or of a fan.
+// The point of the lens, of radius one, of a ray through its centre or of a fan from rim to rim.
 vec2 opening_point(uint ray) {
     if (ray == 0u) {
         return vec2(0.0);
     }
     uint of_fan = (ray - 1u) % push.fan;
     float along = 2.0 * float(of_fan) / float(push.fan - 1u) - 1.0;
-    return ray <= push.fan ? vec2(0.0, along) : vec2(along, 0.0);
+    return aperture.stretch * (ray <= push.fan ? vec2(0.0, along) : vec2(along, 0.0));
 }
 
 void main() {

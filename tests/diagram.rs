@@ -36,15 +36,20 @@ fn slope(settings: &Settings, [x, y]: [f32; 2]) -> DVec3 {
 /// looks, q on the way to it, every ray must start on the lens and pass p, and the fan must end at its rim.
 #[test]
 fn p_lies_where_the_device_focuses() {
-    let settings = small("version-4");
+    let mut oval = small("version-4");
+    oval.estimator.aperture.anamorphic = 2.0;
     let check = |gpu: &Gpu| -> Result<String> {
-        let lens = settings.estimator.lens;
-        let (radius, focal_distance) = (f64::from(lens.diameter) / 2.0, f64::from(lens.focal_distance));
+        let plain = small("version-4");
         let mut worst = 0.0_f64;
-        for position in [[32.5, 24.5], [5.5, 40.5], [60.5, 30.5]] {
-            let diagram = drawn(gpu, &settings, position)?;
+        for (settings, position) in
+            [(&plain, [32.5, 24.5]), (&plain, [5.5, 40.5]), (&plain, [60.5, 30.5]), (&oval, [10.5, 38.5])]
+        {
+            let lens = settings.estimator.lens;
+            let (radius, focal_distance) = (f64::from(lens.diameter) / 2.0, f64::from(lens.focal_distance));
+            let half_width = radius / f64::from(settings.estimator.aperture.anamorphic);
+            let diagram = drawn(gpu, settings, position)?;
             let (depth, p) = diagram.focus.expect("a lens has a focal plane");
-            let expected = focal_distance * slope(&settings, position);
+            let expected = focal_distance * slope(settings, position);
             ensure!((depth - focal_distance).abs() < 1e-6, "the focal plane is drawn at {depth}");
             let mut near = |what: &str, point: DVec3, expected: DVec3| -> Result<()> {
                 let off = point.distance(expected) / focal_distance;
@@ -62,10 +67,13 @@ fn p_lies_where_the_device_focuses() {
             for ray in &diagram.samples {
                 ensure!(ray[0].z.abs() < 1e-6 && ray[0].length() < radius * 1.0001, "{} is no lens", ray[0]);
             }
-            for (fan, rim) in [(&diagram.fan_up, DVec3::Y), (&diagram.fan_across, DVec3::X)] {
-                near("a rim", fan[0][0], -radius * rim)?;
-                near("a rim", fan[fan.len() - 1][0], radius * rim)?;
+            let rims = [(&diagram.fan_up, radius * DVec3::Y), (&diagram.fan_across, half_width * DVec3::X)];
+            for (fan, rim) in rims {
+                near("a rim", fan[0][0], -rim)?;
+                near("a rim", fan[fan.len() - 1][0], rim)?;
             }
+            let [width, height] = diagram.half_opening;
+            near("the opening", DVec3::new(width, height, 0.0), DVec3::new(half_width, radius, 0.0))?;
             near("the centre", diagram.centre[0], DVec3::ZERO)?;
             let hit = diagram.hit.expect("a surface");
             near("the hit", hit, at(diagram.centre, hit.z))?;
@@ -74,7 +82,13 @@ fn p_lies_where_the_device_focuses() {
     };
     prove(
         check,
-        &["picked_half_a_pixel_off", "picked_through_the_rim", "focal_sphere", "fan_of_half_the_lens"],
+        &[
+            "picked_half_a_pixel_off",
+            "picked_through_the_rim",
+            "focal_sphere",
+            "fan_of_half_the_lens",
+            "fan_of_a_round_lens",
+        ],
     );
 }
 
@@ -130,5 +144,5 @@ fn light_spreads_on_the_film_over_the_circle_of_confusion() {
     }
     settings.estimator.model = CameraModel::Pinhole;
     let diagram = drawn(&gpu, &settings, [20.5, 38.5]).expect("it is drawn");
-    assert!(diagram.radius == 0.0 && diagram.image.blur < 1e-12, "a pinhole blurs nothing");
+    assert!(diagram.half_opening == [0.0; 2] && diagram.image.blur < 1e-12, "a pinhole blurs nothing");
 }

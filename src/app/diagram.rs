@@ -22,8 +22,8 @@ pub type Line = [DVec3; 2];
 /// What is drawn of the scene's side.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagram {
-    /// Half the opening's diameter; 0 for a pinhole.
-    pub radius: f64,
+    /// Half the opening's width and height; 0 for a pinhole.
+    pub half_opening: [f64; 2],
     /// The depth to which the drawing goes.
     pub reach: f64,
     /// The depth at which the view plane is drawn.
@@ -101,13 +101,12 @@ impl Diagram {
         let lines = |rays: &[LensRay]| rays.iter().map(line).collect::<Vec<_>>();
         let [width, height] = estimator.size.map(f64::from);
         let half_height = (0.5 * camera.vfov_radians).tan() * view_plane;
-        let radius = match estimator.model {
-            CameraModel::ThinLens => 0.5 * f64::from(estimator.lens.diameter),
-            CameraModel::Pinhole => 0.0,
-            CameraModel::Hole => 0.5 * f64::from(estimator.hole.diameter),
-        };
+        let (fan_up, fan_across) = (lines(picked.fan_up()), lines(picked.fan_across()));
+        // The fans end on the rim.
+        let half_opening =
+            [fan_across.last().map_or(0.0, |ray| ray[0].x), fan_up.last().map_or(0.0, |ray| ray[0].y)];
         let mut diagram = Self {
-            radius,
+            half_opening,
             reach,
             view_plane,
             half_picture: [half_height * width / height, half_height],
@@ -115,8 +114,8 @@ impl Diagram {
             focus,
             hit,
             centre: line(&picked.rays[0]),
-            fan_up: lines(picked.fan_up()),
-            fan_across: lines(picked.fan_across()),
+            fan_up,
+            fan_across,
             samples: lines(picked.samples()),
             image: ImageSide::without_light(camera.film_distance(), slope),
         };
@@ -142,7 +141,9 @@ impl Diagram {
         };
         let light = |fan: &[Line]| fan.iter().map(|ray| [ray[0], refracted(ray[0], end)]).collect();
         (self.image.light_up, self.image.light_across) = (light(&self.fan_up), light(&self.fan_across));
-        let rim = |side: f64| refracted(DVec3::new(0.0, side * self.radius, 0.0), v).y;
+        // As wide as the wider of the two.
+        let radius = self.half_opening[0].max(self.half_opening[1]);
+        let rim = |side: f64| refracted(DVec3::new(0.0, side * radius, 0.0), v).y;
         self.image.blur = (rim(1.0) - rim(-1.0)).abs();
         self.image.blur_pixels = self.image.blur * pixels_per_unit;
         self.image.crossing = crossing;

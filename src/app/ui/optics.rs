@@ -6,6 +6,7 @@ use super::{MARGIN, PANEL_WIDTH};
 use crate::app::diagram::{Diagram, Line};
 use glam::DVec3;
 use imgui::{Condition, DrawListMut, Ui};
+use std::f64::consts::TAU;
 
 type Color = [f32; 4];
 
@@ -28,6 +29,8 @@ const HEAD: f32 = 24.0;
 const FOOT: f32 = 18.0;
 /// Between the views, in points.
 const GAP: f32 = 6.0;
+/// Sides of the lens's rim, as drawn.
+const RIM_SIDES: u32 = 96;
 /// About the width of a letter.
 const LETTER: f32 = 8.0;
 /// Rays that can be drawn.
@@ -138,13 +141,14 @@ impl Optics {
 
     /// Lens, view plane and focal plane, the centre ray, and the fan of primary rays.
     fn scene_side(&self, mut paper: Paper<'_>, side: View, diagram: &Diagram) {
-        let (fan, half) = match side {
-            View::Side => (&diagram.fan_up, diagram.half_picture[1]),
-            View::Top | View::Front => (&diagram.fan_across, diagram.half_picture[0]),
+        let (fan, axis) = match side {
+            View::Side => (&diagram.fan_up, 1),
+            View::Top | View::Front => (&diagram.fan_across, 0),
         };
+        let (half, opening) = (diagram.half_picture[axis], diagram.half_opening[axis]);
         let points = [Some(diagram.q), diagram.focus.map(|focus| focus.1), diagram.hit];
         let aside = points.into_iter().flatten().map(|point| side.flat(point)[1]);
-        let aside: Vec<f64> = aside.chain([half, -half, diagram.radius, -diagram.radius]).collect();
+        let aside: Vec<f64> = aside.chain([half, -half, opening, -opening]).collect();
         let bounds = [[-0.05 * diagram.reach, diagram.reach], around(&aside)];
         paper.fit(bounds, f64::from(self.stretch), side);
         let list = paper.list;
@@ -164,7 +168,7 @@ impl Optics {
             if let Some((depth, _)) = diagram.focus {
                 paper.tall(depth, FOCUS);
             }
-            paper.upright(0.0, [-diagram.radius, diagram.radius], GLASS, 4.0);
+            paper.upright(0.0, [-opening, opening], GLASS, 4.0);
             paper.dot(diagram.q, FAINT, "q");
             if let Some(hit) = diagram.hit {
                 paper.dot(hit, LIGHT, "hit");
@@ -192,8 +196,8 @@ fn front(mut paper: Paper<'_>, diagram: &Diagram) {
         let [from, to] = *ray;
         from + (to - from) * (diagram.view_plane / (to - from).z.max(1e-9))
     };
-    let radius = diagram.radius;
-    let points = [[radius, radius], [-radius, -radius], View::Front.flat(diagram.q)];
+    let half = diagram.half_opening;
+    let points = [half, half.map(|extent| -extent), View::Front.flat(diagram.q)];
     let bounds = [0, 1].map(|axis| around(&points.map(|point| point[axis])));
     paper.fit(bounds, 1.0, View::Front);
     let list = paper.list;
@@ -204,10 +208,14 @@ fn front(mut paper: Paper<'_>, diagram: &Diagram) {
             let ends = [0, 1].map(|end| DVec3::new(pair[end][0], pair[end][1], 0.0));
             paper.line(ends, FAINT, 1.0);
         }
-        let centre = paper.place(DVec3::ZERO);
-        let pixels = (radius * paper.scale[0]) as f32;
-        list.add_circle(centre, pixels, [GLASS[0], GLASS[1], GLASS[2], 0.16]).filled(true).build();
-        list.add_circle(centre, pixels, GLASS).thickness(1.5).build();
+        let rim: Vec<[f32; 2]> = (0..=RIM_SIDES)
+            .map(|i| {
+                let (y, x) = (TAU * f64::from(i) / f64::from(RIM_SIDES)).sin_cos();
+                paper.place(DVec3::new(half[0] * x, half[1] * y, 0.0))
+            })
+            .collect();
+        list.add_polyline(rim.clone(), [GLASS[0], GLASS[1], GLASS[2], 0.16]).filled(true).build();
+        list.add_polyline(rim, GLASS).thickness(1.5).build();
         for ray in &diagram.samples {
             paper.line([ray[0], at_view_plane(ray)], [PRIMARY[0], PRIMARY[1], PRIMARY[2], 0.30], 1.0);
         }
@@ -228,10 +236,11 @@ fn front(mut paper: Paper<'_>, diagram: &Diagram) {
 fn film_side(mut paper: Paper<'_>, diagram: &Diagram) {
     let image = &diagram.image;
     let v = image.film_distance;
+    let [across, opening] = diagram.half_opening;
     let end = image.light_up.first().map_or(-1.08 * v, |line| line[1].z);
     let aside: Vec<f64> = (image.light_up.iter().flatten())
         .map(|point| point.y)
-        .chain([image.p.y, diagram.radius, -diagram.radius])
+        .chain([image.p.y, opening, -opening])
         .collect();
     paper.fit([[1.06 * end, 0.10 * v], around(&aside)], 1.0, View::Side);
     let list = paper.list;
@@ -242,10 +251,10 @@ fn film_side(mut paper: Paper<'_>, diagram: &Diagram) {
             paper.line(*line, LIGHT, 1.0);
         }
         paper.dashed([DVec3::ZERO, image.p], CENTRE);
-        paper.upright(0.0, [-diagram.radius, diagram.radius], GLASS, 4.0);
+        paper.upright(0.0, [-opening, opening], GLASS, 4.0);
         paper.dot(image.p, FOCUS, "p'");
-        // The chief ray's end is the middle of the circle.
-        let half = 0.5 * image.blur;
+        // The chief ray's end is the middle of the circle, which has the opening's shape.
+        let half = 0.5 * image.blur * (opening / across.max(opening).max(f64::MIN_POSITIVE));
         paper.upright(-v, [image.p.y - half, image.p.y + half], BLUR, 4.0);
         paper.title("Behind the lens: film and circle of confusion");
         paper.scale_bar();
