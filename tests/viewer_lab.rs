@@ -109,6 +109,9 @@ fn changes_are_undone_and_made_again() {
     );
     let turned = *viewer.camera.borrow();
 
+    // Another size is no change, and keeps none from being undone.
+    viewer.xdotool("search --class thinlens windowsize 790 700");
+    viewer.wait_for("another size", |viewer| viewer.last_shown.borrow().contains("of 790x700"));
     viewer.until("undo", |viewer| *viewer.camera.borrow() == camera, || viewer.press("ctrl+z"));
     assert_eq!(viewer.state.borrow()[0], wide, "two changes at once");
     viewer.until("undo", |viewer| viewer.state.borrow()[0] == diameter, || viewer.press("ctrl+z"));
@@ -276,6 +279,20 @@ fn scenes_and_pictures_are_saved_and_dropped() {
     let says = |viewer: &Viewer| viewer.message.borrow().contains("broken.toml:1");
     viewer.wait_for("why it cannot be opened", says);
     assert!(is(&viewer, turned, wide), "a file that cannot be opened changes the scene");
+    // One that is read but cannot be rendered leaves nothing behind either.
+    let bright = viewer.folder.join("bright.toml");
+    let text = include_str!("../src/scene/builtin/passing.toml");
+    std::fs::write(&bright, format!("{text}\n[view]\nexposure = 50\n")).expect("a file");
+    viewer.drop_file(&bright);
+    viewer.wait_for("why it cannot be shown", |viewer| viewer.message.borrow().contains("must be from"));
+    viewer.until(
+        "orbiting",
+        |viewer| *viewer.camera.borrow() != turned,
+        || {
+            viewer.drag_picture(1, [600, 400], [570, 410]);
+        },
+    );
+    viewer.until("Home", |viewer| *viewer.camera.borrow() == turned, || viewer.press("Home"));
     viewer.close();
 }
 

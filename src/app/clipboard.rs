@@ -8,6 +8,10 @@ impl Clipboard {
         let system = arboard::Clipboard::new();
         Self(system.inspect_err(|error| log::warn!("no clipboard: {error}")).ok())
     }
+
+    pub(super) fn is_there(&self) -> bool {
+        self.0.is_some()
+    }
 }
 
 impl imgui::ClipboardBackend for Clipboard {

@@ -102,6 +102,11 @@ impl Focus {
         self.wanted = Some(position);
     }
 
+    /// Leaves the focal plane where it is.
+    pub(super) fn stop(&mut self) {
+        (self.wanted, self.glide) = (None, None);
+    }
+
     /// What to ask the device of this picture now, if anything. `rays`: how many are drawn of the pinned
     /// pixel's optics.
     pub(super) fn question(&mut self, estimator: &Estimator, rays: Option<u32>) -> Option<Question> {

@@ -27,11 +27,6 @@ impl<T: Clone + PartialEq> History<T> {
         }
     }
 
-    /// Takes in a change that is not to be undone.
-    pub(super) fn amend(&mut self, change: impl FnOnce(&mut T)) {
-        change(&mut self.now);
-    }
-
     /// One change back. None where there is nothing to undo.
     pub(super) fn undo(&mut self) -> Option<T> {
         let before = self.past.pop()?;

@@ -49,6 +49,7 @@ struct Open {
     navigate: Navigate,
     history: History<State>,
     modifiers: Modifiers,
+    has_clipboard: bool,
     window: Arc<Window>,
     last_frame: Instant,
     /// When the first event came that no frame has shown yet.
@@ -117,7 +118,10 @@ impl ApplicationHandler for Viewer {
             event => {
                 match event {
                     WindowEvent::Resized(_) => open.graphics.refit(),
-                    WindowEvent::DroppedFile(ref path) => open.panel.open(&path.display().to_string()),
+                    WindowEvent::DroppedFile(ref path) => {
+                        open.focus.stop();
+                        open.panel.open(&path.display().to_string());
+                    }
                     WindowEvent::Occluded(occluded) => open.occluded = occluded,
                     _ => {}
                 }
@@ -149,7 +153,8 @@ impl ApplicationHandler for Viewer {
     }
 
     fn exiting(&mut self, _event_loop: &ActiveEventLoop) {
-        if let Some(open) = &self.open {
+        // What could not be shown is not to be met again.
+        if let Some(open) = self.open.as_ref().filter(|_| self.error.is_none()) {
             open.panel.memory().save();
         }
         self.open = None;
@@ -169,7 +174,9 @@ impl Open {
 
         let mut imgui = imgui::Context::create();
         imgui.set_ini_filename(memory::file("windows.ini"));
-        imgui.set_clipboard_backend(Clipboard::new());
+        let clipboard = Clipboard::new();
+        let has_clipboard = clipboard.is_there();
+        imgui.set_clipboard_backend(clipboard);
         imgui.io_mut().config_windows_move_from_title_bar_only = true;
         imgui.io_mut().config_flags |=
             imgui::ConfigFlags::NAV_ENABLE_KEYBOARD | imgui::ConfigFlags::DOCKING_ENABLE;
@@ -185,6 +192,7 @@ impl Open {
             focus: Focus::default(),
             navigate: Navigate::default(),
             modifiers: Modifiers::default(),
+            has_clipboard,
             window,
             last_frame: Instant::now(),
             unshown_since: None,
@@ -276,9 +284,12 @@ impl Open {
             diagram: self.focus.diagram(),
         };
         let modifiers = self.modifiers.take(ui);
+        let scene = self.panel.settings.estimator.scene.clone();
         let action = self.panel.draw(ui, &status).or_else(|| keys::pressed(ui, modifiers));
+        if self.panel.settings.estimator.scene != scene {
+            self.focus.stop();
+        }
         keys::help(ui, &mut self.panel.keys);
-        self.history.amend(|state| state.settings.estimator.size = size);
         self.navigate.take_input(ui, modifiers, &mut self.panel.settings.estimator.camera);
         let lens = &mut self.panel.settings.estimator.lens;
         self.focus.take_input(ui, modifiers, lens, size);
@@ -334,6 +345,11 @@ impl Open {
     }
 
     fn act(&mut self, action: Action) -> Result<()> {
+        if matches!(action, Action::Undo | Action::Redo | Action::Reset) {
+            // A change that is still under way ends here.
+            self.focus.stop();
+            self.history.record(&self.panel.state());
+        }
         match action {
             Action::Autofocus => {
                 self.focus.send_to(self.panel.settings.estimator.size.map(|extent| 0.5 * extent as f32));
@@ -346,10 +362,17 @@ impl Open {
             Action::Pause => self.panel.paused ^= true,
             Action::Optics => self.panel.optics.open ^= true,
             Action::Keys => self.panel.keys ^= true,
-            Action::CopyCommand => self.panel.say("The command line is in the clipboard.".into()),
+            Action::CopyCommand if self.has_clipboard => {
+                self.panel.say("The command line is in the clipboard.".into());
+            }
+            Action::CopyCommand => {
+                let line = self.panel.settings.command_line("picture.png");
+                self.panel.say(format!("there is no clipboard; the command line is: {line}"));
+            }
             Action::SaveScene => self.panel.save_scene(),
             Action::SavePicture => {
-                match self.graphics.save(&self.panel.settings, Path::new(self.panel.picture_file())) {
+                let file = self.panel.picture_file();
+                match self.graphics.save(self.panel.shown(), Path::new(&file)) {
                     Ok(()) => self.panel.picture_is_saved(),
                     Err(error) => self.panel.say(error.to_string()),
                 }

@@ -112,16 +112,16 @@ pub struct SettingsArgs {
     #[arg(long, value_name = "ISO", allow_negative_numbers = true)]
     iso: Option<f32>,
     /// Whether the brightness stays as the scene's lens makes it; else it changes with the aperture, as on
-    /// film [default: true]
+    /// film [default: the scene's, or true]
     #[arg(long, value_name = "true|false", num_args = 0..=1, require_equals = true, default_missing_value = "true")]
     exposure_lock: Option<bool>,
     /// Brightness of a PNG or the window in stops: +1 doubles it, -1 halves it; an EXR stays as it is
-    /// [default: 0]
+    /// [default: the scene's, or 0]
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true)]
     exposure: Option<f32>,
     /// Show, in a PNG or the window, instead of the picture: circle-of-confusion (blue in front of the focal
     /// plane, orange behind), depth, samples (count) or error of each pixel; or the picture with what is
-    /// sharp marked (focus-peaking), or what the focal plane cuts (focal-plane)
+    /// sharp marked (focus-peaking), or what the focal plane cuts (focal-plane) [default: the scene's, or none]
     #[arg(
         long,
         value_name = "focus-peaking|focal-plane|circle-of-confusion|depth|count|error|none",
@@ -129,7 +129,7 @@ pub struct SettingsArgs {
         hide_possible_values = true
     )]
     overlay: Option<Shown>,
-    /// How wide a circle of confusion may be that counts as sharp, in pixels [default: 1]
+    /// How wide a circle of confusion may be that counts as sharp, in pixels [default: the scene's, or 1]
     #[arg(long, value_name = "PX", allow_negative_numbers = true)]
     tolerance: Option<f32>,
 }

@@ -48,6 +48,10 @@ pub fn save(renderer: &mut Renderer, settings: &Settings, path: &Path) -> Result
     }
     let settings = Settings { samples, ..settings.clone() };
     renderer.set(&settings)?;
+    // Other settings than the picture is of would have started it anew.
+    if renderer.progress().samples != samples {
+        return Err(Error::OutOfRange("the picture has just changed; save it in a moment".into()));
+    }
     write_picture(renderer, &settings, format, PendingFile::create(path)?)
 }
 

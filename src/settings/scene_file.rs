@@ -1,11 +1,11 @@
 //! Settings as a scene file: the scene's own, with the camera, its lens and the view as they are now.
 
-use super::Settings;
+use super::{MAX_EXPOSURE_STOPS, Settings, in_range};
 use crate::error::{Error, Result};
-use crate::scene::{self, CameraModel, Overlay};
+use crate::scene::{self, CameraModel, Overlay, Scene};
 use glam::Vec3;
 use std::path::{Path, PathBuf};
-use toml_edit::{Array, DocumentMut, Item, Table, Value, value};
+use toml_edit::{Array, DocumentMut, Item, Table, TableLike, Value, value};
 
 impl Settings {
     /// The text of a scene file in this folder that gives this picture, but for how it is sampled. What the
@@ -15,9 +15,11 @@ impl Settings {
     /// # Errors
     /// Of reading the scene's own file, which may have changed since.
     pub fn scene_file(&self, folder: &Path) -> Result<String> {
-        let scene = &*self.estimator.scene;
-        let (text, own_folder) = scene::text_of(&scene.source)?;
-        let unusable = |message: String| Error::Scene { file: scene.source.clone(), line: 1, message };
+        let source = &self.estimator.scene.source;
+        let (text, own_folder) = scene::text_of(source)?;
+        // The file may have changed since it was loaded.
+        let scene = scene::load(source)?;
+        let unusable = |message: String| Error::Scene { file: source.clone(), line: 1, message };
         let mut document: DocumentMut = text
             .parse()
             .map_err(|error: toml_edit::TomlError| unusable(error.message().replace('\n', "; ")))?;
@@ -30,27 +32,29 @@ impl Settings {
         }
         let camera = document.get_mut("camera").and_then(Item::as_table_like_mut);
         let camera = camera.ok_or_else(|| unusable("the file has no [camera] any more".into()))?;
-        self.write_camera(&mut Keys(camera), &files);
-        if let Some(meshes) = document.get_mut("mesh").and_then(Item::as_array_of_tables_mut) {
-            for mesh in meshes.iter_mut() {
-                if let Some(file) = mesh.get("file").and_then(Item::as_str).map(str::to_owned) {
-                    mesh["file"] = value(files.seen(&files.from.join(file)));
-                }
+        self.write_camera(&mut Keys(camera), &scene, &files);
+        match document.get_mut("mesh") {
+            Some(Item::ArrayOfTables(meshes)) => meshes.iter_mut().for_each(|mesh| files.move_mesh(mesh)),
+            Some(Item::Value(Value::Array(meshes))) => {
+                let meshes = meshes.iter_mut().filter_map(Value::as_inline_table_mut);
+                meshes.for_each(|mesh| files.move_mesh(mesh));
             }
+            _ => {}
         }
-        let mut view = Table::new();
-        if let Some(own) = document.get("view").and_then(Item::as_table) {
-            view = own.clone();
-        }
-        self.write_view(&mut Keys(&mut view));
-        if !view.is_empty() {
-            document["view"] = Item::Table(view);
+        if let Some(view) = document.get_mut("view").and_then(Item::as_table_like_mut) {
+            self.write_view(&mut Keys(view), &scene)?;
+        } else {
+            let mut view = Table::new();
+            self.write_view(&mut Keys(&mut view), &scene)?;
+            if !view.is_empty() {
+                document["view"] = Item::Table(view);
+            }
         }
         Ok(document.to_string())
     }
 
-    fn write_camera(&self, keys: &mut Keys<'_>, files: &Files) {
-        let (estimator, scene) = (&self.estimator, &*self.estimator.scene);
+    fn write_camera(&self, keys: &mut Keys<'_>, scene: &Scene, files: &Files) {
+        let estimator = &self.estimator;
         let (camera, own) = (&estimator.camera, &scene.camera);
         keys.vector("eye", camera.eye, own.eye);
         keys.vector("look_at", camera.look_at, own.look_at);
@@ -90,15 +94,13 @@ impl Settings {
         keys.number("iso", self.view.iso, scene.view.iso);
     }
 
-    fn write_view(&self, keys: &mut Keys<'_>) {
-        let (view, own) = (&self.view, &self.estimator.scene.view);
+    fn write_view(&self, keys: &mut Keys<'_>, scene: &Scene) -> Result<()> {
+        let (view, own) = (&self.view, &scene.view);
         let brightness = self.exposure();
         let relative = brightness != view.exposure_stops.exp2();
-        keys.number(
-            "exposure",
-            if relative { brightness.log2() } else { view.exposure_stops },
-            own.exposure_stops,
-        );
+        let stops = if relative { brightness.log2() } else { view.exposure_stops };
+        in_range("exposure of the saved scene", stops, -MAX_EXPOSURE_STOPS, MAX_EXPOSURE_STOPS)?;
+        keys.number("exposure", stops, own.exposure_stops);
         keys.change("exposure_lock", view.exposure_lock, own.exposure_lock, |is| is);
         keys.number("tolerance", view.tolerance, own.tolerance);
         if view.overlay != own.overlay {
@@ -107,11 +109,12 @@ impl Settings {
                 None => drop(keys.0.remove("overlay")),
             }
         }
+        Ok(())
     }
 }
 
 /// A table, of which only what changes is written.
-struct Keys<'a>(&'a mut dyn toml_edit::TableLike);
+struct Keys<'a>(&'a mut dyn TableLike);
 
 impl Keys<'_> {
     /// Writes a key in place of others.
@@ -155,6 +158,13 @@ struct Files {
 }
 
 impl Files {
+    /// A mesh is found from the new scene.
+    fn move_mesh(&self, mesh: &mut dyn TableLike) {
+        if let Some(file) = mesh.get("file").and_then(Item::as_str).map(|file| self.from.join(file)) {
+            mesh.insert("file", value(self.seen(&file)));
+        }
+    }
+
     /// How a file is called in the new scene: from its folder if it lies in there, else by its whole path.
     fn seen(&self, file: &Path) -> String {
         let whole = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());

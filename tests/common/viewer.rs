@@ -49,6 +49,8 @@ pub struct Viewer {
     pub view: RefCell<String>,
     /// The pixel whose optics were drawn last, and p there: right, up, depth.
     pub diagram: RefCell<Option<([f32; 2], [f64; 3])>>,
+    /// What was shown last: points, and the picture's size.
+    pub last_shown: RefCell<String>,
     /// What the panel said last.
     pub message: RefCell<String>,
     /// What is allocated on the device: names and bytes.
@@ -129,6 +131,7 @@ impl Viewer {
             camera: RefCell::default(),
             view: RefCell::default(),
             diagram: RefCell::default(),
+            last_shown: RefCell::default(),
             message: RefCell::default(),
             memory: RefCell::default(),
             history: RefCell::default(),
@@ -185,6 +188,7 @@ impl Viewer {
             *self.memory.borrow_mut() = named.collect();
         }
         if let Some(shown) = line.split("shown ").nth(1) {
+            shown.clone_into(&mut self.last_shown.borrow_mut());
             let (samples, target) = shown.split_once('/').expect("two numbers");
             let target = target.split(' ').next().expect("a number");
             *self.shown.borrow_mut() =

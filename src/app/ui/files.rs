@@ -14,13 +14,39 @@ const SCENE: &str = "scene.toml";
 /// What is typed into the panel's fields.
 pub(super) struct Files {
     open: String,
-    picture: String,
-    scene: String,
+    picture: SaveAs,
+    scene: SaveAs,
+}
+
+/// Where something is saved.
+struct SaveAs {
+    file: String,
+    /// Whether nobody typed it: then no file is to be lost.
+    offered: bool,
+}
+
+impl SaveAs {
+    fn new(file: &str) -> Self {
+        Self { file: free(file), offered: true }
+    }
+
+    fn edit(&mut self, ui: &Ui, id: String) {
+        self.offered &= !ui.input_text(id, &mut self.file).build();
+    }
+
+    /// The file, now that something is saved.
+    fn file(&mut self) -> String {
+        if self.offered {
+            // There may be one by now.
+            self.file = free(&self.file);
+        }
+        self.file.clone()
+    }
 }
 
 impl Default for Files {
     fn default() -> Self {
-        Self { open: String::new(), picture: free(PICTURE), scene: free(SCENE) }
+        Self { open: String::new(), picture: SaveAs::new(PICTURE), scene: SaveAs::new(SCENE) }
     }
 }
 
@@ -57,7 +83,7 @@ impl Panel {
             "Where the picture is saved: .png as it is shown, .exr for linear light. It carries its settings, so that it can be opened again.",
             layout,
             |id| {
-                ui.input_text(id, &mut files.picture).build();
+                files.picture.edit(ui, id);
             },
         );
         let mut button = |name, asks, help| {
@@ -80,7 +106,7 @@ impl Panel {
             "Where the scene is saved, a .toml, with this camera, lens and view. Open it like any other.",
             layout,
             |id| {
-                ui.input_text(id, &mut files.scene).build();
+                files.scene.edit(ui, id);
             },
         );
         if ui.button("Save scene") {
@@ -98,27 +124,32 @@ impl Panel {
     }
 
     /// Where the picture goes.
-    pub(in crate::app) fn picture_file(&self) -> &str {
-        &self.files.picture
+    pub(in crate::app) fn picture_file(&mut self) -> String {
+        self.files.picture.file()
     }
 
     /// It went there; the next one goes elsewhere.
     pub(in crate::app) fn picture_is_saved(&mut self) {
-        self.say(format!("saved {}", self.files.picture));
-        self.files.picture = free(&self.files.picture);
+        let SaveAs { file, .. } = &self.files.picture;
+        let (said, next) = (format!("saved {file}"), SaveAs::new(file));
+        self.files.picture = next;
+        self.say(said);
     }
 
     /// Saves the scene, and says so or why not.
     pub(in crate::app) fn save_scene(&mut self) {
-        let file = self.files.scene.clone();
-        match output::save_scene(&self.settings, Path::new(&file)) {
-            Ok(()) => {
-                self.say(format!("saved {file}"));
-                self.remember(&file);
-                self.files.scene = free(&file);
-            }
-            Err(error) => self.say(error.to_string()),
+        let file = self.files.scene.file();
+        if let Err(error) = output::save_scene(&self.settings, Path::new(&file)) {
+            self.say(error.to_string());
+            return;
         }
+        // What is rendered is told by its difference from the file, which has changed.
+        if file == self.settings.estimator.scene.source {
+            self.open(&file);
+        }
+        self.remember(&file);
+        self.files.scene = SaveAs::new(&file);
+        self.say(format!("saved {file}"));
     }
 }
 

@@ -29,13 +29,13 @@ const MODELS: [(CameraModel, &str, &str); 3] = [
     (
         CameraModel::ThinLens,
         "Thin lens",
-        "Sharp in one plane, and blurred before and behind it: the wider, the more.",
+        "Sharp in one plane, and blurred before and behind it: the wider, the more. An ideal lens: real ones also have coloured reflections, which their coatings leave over.",
     ),
     (CameraModel::Pinhole, "Ideal pinhole", "A hole without size: everything is sharp."),
     (
         CameraModel::Hole,
         "Hole, no lens",
-        "A box with a hole: upside down, sharp through a small hole, fuzzy and brighter through a large one.",
+        "A box with a hole: upside down, for the light crosses in the hole; sharp through a small one, fuzzy and brighter through a large one.",
     ),
 ];
 
@@ -70,7 +70,7 @@ impl Panel {
         named(
             ui,
             "Lens diameter",
-            "How wide the lens is, in scene units. 0 is a pinhole: everything is sharp.",
+            "How wide the lens is, in scene units; of an eye, the pupil. A wide one blurs more and needs more points per pixel. 0 is a pinhole: everything is sharp.",
             layout,
             |id| {
                 diameter_slider(ui, id, widest, &mut estimator.lens.diameter);

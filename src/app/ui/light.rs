@@ -11,12 +11,13 @@ impl Panel {
         named(
             ui,
             "Shutter",
-            "How long light comes in, in seconds. Twice as long is twice as bright, and what moves is blurred along its way. The aperture's blur is another thing.",
+            "How long light comes in, in seconds. Twice as long is twice as bright, and what moves is blurred along its way. The aperture is not the shutter: its blur comes of depth, not of motion.",
             layout,
             |id| {
+                // What is typed is read by the first part: a fraction would be read up to its bar.
                 let shown = match estimator.shutter {
-                    long if long >= 0.5 => format!("{long:.1} s"),
-                    short => format!("1/{:.0} s", short.recip()),
+                    long if long >= 0.5 => "%.3g s".into(),
+                    short => format!("%.3g s (1/{:.0})", short.recip()),
                 };
                 ui.slider_config(id, 1.0 / 8000.0, 4.0)
                     .display_format(shown)

@@ -51,8 +51,8 @@ pub(super) struct Panel {
     pub(super) settings: Settings,
     /// What Reset goes back to.
     initial: Settings,
-    /// What the renderer took last.
-    accepted: Settings,
+    /// What the renderer took last: of this is the picture that is shown.
+    accepted: State,
     max_points: u32,
     /// The last aperture that was an image.
     image: Option<ApertureImage>,
@@ -119,12 +119,23 @@ pub(super) enum Action {
     CopyCommand,
 }
 
+/// The argument that names the aperture's image.
+const IMAGE: &str = "--aperture-image=";
+
+/// A file's path from wherever one is. A built-in scene has none.
+fn whole_path(file: &str) -> String {
+    if BUILTINS.iter().any(|builtin| builtin.name == file) {
+        return file.to_owned();
+    }
+    std::path::absolute(file).map_or_else(|_| file.to_owned(), |path| path.display().to_string())
+}
+
 impl Panel {
     pub(super) fn new(options: &Options) -> Self {
         let settings = options.settings.clone();
         let mut panel = Self {
             initial: options.initial.clone(),
-            accepted: settings.clone(),
+            accepted: State { settings: settings.clone(), initial: options.initial.clone() },
             max_points: settings.samples.max(MAX_POINTS),
             image: settings.estimator.aperture.image.clone(),
             settings,
@@ -239,14 +250,15 @@ impl Panel {
 
     /// Likewise, but only where the camera stands and looks.
     pub(super) fn reset_camera(&mut self) {
-        self.settings.estimator.camera = self.initial.estimator.camera;
+        let (camera, initial) = (&mut self.settings.estimator.camera, &self.initial.estimator.camera);
+        (camera.eye, camera.look_at, camera.up) = (initial.eye, initial.look_at, initial.up);
     }
 
     /// A picture is held from now on, on the left of what the panel leaves free.
     pub(super) fn hold(&mut self) {
         let width = self.settings.estimator.size[0] as f32;
         let left = (PANEL_WIDTH + 2.0 * MARGIN) / width;
-        self.held = Some(Held::new(&self.settings, if left < 0.8 { 0.5 * (left + 1.0) } else { 0.5 }));
+        self.held = Some(Held::new(self.shown(), if left < 0.8 { 0.5 * (left + 1.0) } else { 0.5 }));
     }
 
     /// Shows a message until there is another one.
@@ -258,17 +270,27 @@ impl Panel {
     /// What to remember of it.
     pub(super) fn memory(&self) -> Memory {
         let Settings { estimator, .. } = &self.settings;
+        let mut arguments = self.settings.arguments();
+        // The next time the viewer may be started elsewhere.
+        arguments[0] = whole_path(&arguments[0]);
+        for argument in &mut arguments {
+            if let Some(file) = argument.strip_prefix(IMAGE).filter(|file| *file != "none") {
+                *argument = format!("{IMAGE}{}", whole_path(file));
+            }
+        }
         Memory {
             size: Some(estimator.size),
-            arguments: self.settings.arguments(),
+            arguments,
             recent: self.recent.clone(),
             optics: self.optics.open,
         }
     }
 
-    /// What undo and redo go back and forth between.
+    /// What undo and redo go back and forth between. The window's size is not part of it.
     pub(super) fn state(&self) -> State {
-        State { settings: self.settings.clone(), initial: self.initial.clone() }
+        let mut state = State { settings: self.settings.clone(), initial: self.initial.clone() };
+        (state.settings.estimator.size, state.initial.estimator.size) = ([1; 2], [1; 2]);
+        state
     }
 
     /// Puts a state back.
@@ -280,17 +302,20 @@ impl Panel {
 
     /// The renderer took the settings.
     pub(super) fn accept(&mut self) {
-        if self.accepted != self.settings {
-            self.accepted = self.settings.clone();
+        if self.accepted.settings != self.settings || self.accepted.initial != self.initial {
+            self.accepted = State { settings: self.settings.clone(), initial: self.initial.clone() };
         }
     }
 
     /// The renderer did not: back to what it took last, and say why.
     pub(super) fn refuse(&mut self, error: &Error) {
         self.say(error.to_string());
-        let size = self.settings.estimator.size;
-        self.settings = self.accepted.clone();
-        self.settings.estimator.size = size;
+        self.restore(self.accepted.clone());
+    }
+
+    /// The settings of the picture that is shown.
+    pub(super) fn shown(&self) -> &Settings {
+        &self.accepted.settings
     }
 
     fn scene_chooser(&mut self, ui: &Ui, layout: &mut Layout) {
@@ -343,8 +368,9 @@ impl Panel {
 
     /// The file is the latest of those that are offered again.
     fn remember(&mut self, file: &str) {
-        self.recent.retain(|known| known != file);
-        self.recent.insert(0, file.to_owned());
+        let file = whole_path(file);
+        self.recent.retain(|known| *known != file);
+        self.recent.insert(0, file);
         self.recent.truncate(MOST_RECENT);
     }
 
