@@ -5,7 +5,7 @@ use super::widgets::{Layout, note_item, tooltip};
 use super::{MARGIN, PANEL_WIDTH};
 use crate::app::diagram::{Diagram, Line};
 use glam::DVec3;
-use imgui::{Condition, DrawListMut, Ui};
+use imgui::{Condition, DrawListMut, StyleColor, Ui, WindowFlags};
 use std::f64::consts::TAU;
 
 type Color = [f32; 4];
@@ -87,7 +87,14 @@ impl Optics {
             .position([left, height - size[1] - MARGIN], Condition::FirstUseEver)
             .size(size, Condition::FirstUseEver)
             .opened(&mut open)
+            // It has its own: a software device takes its time over what is painted twice.
+            .flags(WindowFlags::NO_BACKGROUND)
             .build(|| {
+                let ([left, top], [width, height]) = (ui.cursor_screen_pos(), ui.content_region_avail());
+                let top_of_papers = top + ui.frame_height_with_spacing();
+                // Without a drawing nothing covers it.
+                let papers = [[left, top_of_papers], [left + width, top + height]];
+                background(ui, if diagram.is_some() { papers } else { [papers[0]; 2] });
                 self.controls(ui, layout);
                 match diagram {
                     Some(diagram) => {
@@ -125,6 +132,14 @@ impl Optics {
         let (right, bottom) = (left + width, top + height);
         let list = ui.get_window_draw_list();
         let half = 0.5 * GAP;
+        let color = ui.style_color(StyleColor::WindowBg);
+        let gaps = [
+            ([middle[0] - half, top], [middle[0] + half, bottom]),
+            ([left, middle[1] - half], [right, middle[1] + half]),
+        ];
+        for (from, to) in gaps {
+            list.add_rect(from, to, color).filled(true).build();
+        }
         let corner = |x: f32, y: f32| [x, y];
         let side = Paper::new(&list, corner(left, top), corner(middle[0] - half, middle[1] - half));
         self.scene_side(side, View::Side, diagram);
@@ -188,6 +203,24 @@ impl Optics {
             }
         });
     }
+}
+
+/// Paints the window but for its title and for this rectangle, which the papers cover.
+fn background(ui: &Ui, [[left, top], [right, bottom]]: [[f32; 2]; 2]) {
+    let ([x, y], [width, height]) = (ui.window_pos(), ui.window_size());
+    let (y, end_x, end_y) = (y + ui.frame_height(), x + width, y + height);
+    let color = ui.style_color(StyleColor::WindowBg);
+    let list = ui.get_window_draw_list();
+    list.with_clip_rect([x, y], [end_x, end_y], || {
+        for (from, to) in [
+            ([x, y], [end_x, top]),
+            ([x, top], [left, bottom]),
+            ([right, top], [end_x, bottom]),
+            ([x, bottom], [end_x, end_y]),
+        ] {
+            list.add_rect(from, to, color).filled(true).build();
+        }
+    });
 }
 
 /// The lens and the view plane's middle from behind: the samples, and where their rays go.
