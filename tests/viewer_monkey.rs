@@ -213,8 +213,12 @@ fn two_hundred_actions_leave_nothing_behind() {
     assert!(seen.len() > 20, "the monkey reaches little: memory was used in {} ways", seen.len());
     home(&mut monkey);
     let after = viewer.memory.borrow().clone();
-    let names = |memory: &[(String, u64)]| memory.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
-    assert_eq!(names(&before), names(&after));
+    // What is made when it is asked for may not have been asked for again.
+    let mut known: Vec<&str> = before.iter().map(|(name, _)| name.as_str()).collect();
+    for (name, bytes) in &after {
+        let place = known.iter().position(|known| known == name);
+        known.remove(place.unwrap_or_else(|| panic!("{bytes} bytes of {name} are left behind: {after:?}")));
+    }
     let bytes = |memory: &[(String, u64)]| memory.iter().map(|(_, bytes)| bytes).sum::<u64>();
     println!("{} ways of using memory, {} bytes before, {} after", seen.len(), bytes(&before), bytes(&after));
     assert!(bytes(&after) <= bytes(&before) + VERTICES, "before: {before:?}\nafter: {after:?}");
