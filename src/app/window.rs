@@ -118,10 +118,7 @@ impl ApplicationHandler for Viewer {
             event => {
                 match event {
                     WindowEvent::Resized(_) => open.graphics.refit(),
-                    WindowEvent::DroppedFile(ref path) => {
-                        open.focus.stop();
-                        open.panel.open(&path.display().to_string());
-                    }
+                    WindowEvent::DroppedFile(ref path) => open.panel.open(&path.display().to_string()),
                     WindowEvent::Occluded(occluded) => open.occluded = occluded,
                     _ => {}
                 }
@@ -284,9 +281,8 @@ impl Open {
             diagram: self.focus.diagram(),
         };
         let modifiers = self.modifiers.take(ui);
-        let scene = self.panel.settings.estimator.scene.clone();
         let action = self.panel.draw(ui, &status).or_else(|| keys::pressed(ui, modifiers));
-        if self.panel.settings.estimator.scene != scene {
+        if self.panel.settings.estimator.scene != self.panel.shown().estimator.scene {
             self.focus.stop();
         }
         keys::help(ui, &mut self.panel.keys);
@@ -305,6 +301,11 @@ impl Open {
         if action == Some(Action::CopyCommand) {
             let line = self.panel.settings.command_line("picture.png");
             log::debug!("copied {line}");
+            self.panel.say(if self.has_clipboard {
+                "The command line is in the clipboard.".into()
+            } else {
+                format!("there is no clipboard; the command line is: {line}")
+            });
             ui.set_clipboard_text(line);
         }
         self.platform.prepare_render(ui, &self.window);
@@ -362,13 +363,8 @@ impl Open {
             Action::Pause => self.panel.paused ^= true,
             Action::Optics => self.panel.optics.open ^= true,
             Action::Keys => self.panel.keys ^= true,
-            Action::CopyCommand if self.has_clipboard => {
-                self.panel.say("The command line is in the clipboard.".into());
-            }
-            Action::CopyCommand => {
-                let line = self.panel.settings.command_line("picture.png");
-                self.panel.say(format!("there is no clipboard; the command line is: {line}"));
-            }
+            // Done where imgui, which has the clipboard, is at hand.
+            Action::CopyCommand => {}
             Action::SaveScene => self.panel.save_scene(),
             Action::SavePicture => {
                 let file = self.panel.picture_file();

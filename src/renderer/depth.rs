@@ -4,8 +4,7 @@ use super::Renderer;
 use crate::error::Result;
 use crate::gpu_types::Camera;
 use crate::passes::Geometry;
-use crate::scene::Overlay;
-use crate::scene::{self, CameraModel, SceneRef};
+use crate::scene::{self, CameraModel, Overlay, SceneRef};
 use crate::settings::{Estimator, Settings};
 use crate::vulkan::Recording;
 

@@ -2,7 +2,7 @@
 
 use super::format::SceneFile;
 use super::mesh::Mesh;
-use super::{BUILTINS, Builtin, Scene, stage};
+use super::{BUILTINS, Scene, stage};
 use crate::error::{Error, Result};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -13,6 +13,16 @@ pub(super) struct Fault {
     pub(super) message: String,
 }
 
+/// A scene, and its file.
+pub struct Loaded {
+    /// The scene.
+    pub scene: Scene,
+    /// What the file says. That of a mesh is of the stage that is made around it.
+    pub text: String,
+    /// Where the file sees others from.
+    pub folder: PathBuf,
+}
+
 /// Loads a built-in by its name, or a `.toml` scene or an `.obj` mesh by its path. A mesh is shown on a
 /// ground, framed, lit and focused on its nearest point.
 ///
@@ -20,63 +30,40 @@ pub(super) struct Fault {
 /// [`Error::UnknownScene`] with near names, [`Error::Read`], [`Error::Scene`] with file and line, or
 /// [`Error::Mesh`].
 pub fn load(scene: &str) -> Result<Scene> {
-    let mut loaded = load_named(scene)?;
-    scene.clone_into(&mut loaded.source);
-    Ok(loaded)
+    Ok(load_with_text(scene)?.scene)
 }
 
-/// What a name stands for.
-enum Source<'a> {
-    Builtin(&'static Builtin),
-    SceneFile(&'a Path),
-    Mesh(&'a Path),
-}
-
-impl<'a> Source<'a> {
-    fn named(scene: &'a str) -> Result<Self> {
-        if let Some(builtin) = BUILTINS.iter().find(|builtin| builtin.name == scene) {
-            return Ok(Self::Builtin(builtin));
-        }
-        let path = Path::new(scene);
-        match path.extension() {
-            Some(extension) if extension == "toml" => Ok(Self::SceneFile(path)),
-            Some(extension) if extension.eq_ignore_ascii_case("obj") => Ok(Self::Mesh(path)),
-            _ => Err(unknown(scene)),
-        }
-    }
-}
-
-fn load_named(scene: &str) -> Result<Scene> {
-    match Source::named(scene)? {
-        Source::Builtin(builtin) => parse(builtin.name, builtin.name, builtin.toml),
-        Source::SceneFile(path) => {
-            parse(&path.file_stem().unwrap_or_default().to_string_lossy(), scene, &read(path)?)
-        }
-        Source::Mesh(path) => {
-            stage::around(&Mesh::read(path)?, &path.file_name().unwrap_or_default().to_string_lossy())
-        }
-    }
-}
-
-/// The text of a scene's file, and the folder that it sees others from. That of a mesh is of the stage that is
-/// made around it.
+/// Likewise, with the text of its file.
 ///
 /// # Errors
 /// As [`load`].
-pub fn text_of(scene: &str) -> Result<(String, PathBuf)> {
-    let folder = |path: &Path| path.parent().unwrap_or(Path::new("")).to_path_buf();
-    match Source::named(scene)? {
-        Source::Builtin(builtin) => Ok((builtin.toml.to_owned(), PathBuf::new())),
-        Source::SceneFile(path) => Ok((read(path)?, folder(path))),
-        Source::Mesh(path) => {
-            let name = path.file_name().unwrap_or_default().to_string_lossy();
-            Ok((stage::scene_file(&Mesh::read(path)?, &name)?, folder(path)))
-        }
-    }
+pub fn load_with_text(scene: &str) -> Result<Loaded> {
+    let mut loaded = load_named(scene)?;
+    scene.clone_into(&mut loaded.scene.source);
+    Ok(loaded)
 }
 
-fn read(path: &Path) -> Result<String> {
-    std::fs::read_to_string(path).map_err(|source| Error::Read { path: path.to_path_buf(), source })
+fn load_named(scene: &str) -> Result<Loaded> {
+    if let Some(builtin) = BUILTINS.iter().find(|builtin| builtin.name == scene) {
+        let text = builtin.toml.to_owned();
+        return Ok(Loaded { scene: parse(builtin.name, builtin.name, &text)?, text, folder: PathBuf::new() });
+    }
+    let path = Path::new(scene);
+    let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
+    match path.extension() {
+        Some(extension) if extension == "toml" => {
+            let read = std::fs::read_to_string(path);
+            let text = read.map_err(|source| Error::Read { path: path.to_path_buf(), source })?;
+            let name = path.file_stem().unwrap_or_default().to_string_lossy();
+            Ok(Loaded { scene: parse(&name, scene, &text)?, text, folder })
+        }
+        Some(extension) if extension.eq_ignore_ascii_case("obj") => {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            let (scene, text) = stage::around(&Mesh::read(path)?, &name)?;
+            Ok(Loaded { scene, text, folder })
+        }
+        _ => Err(unknown(scene)),
+    }
 }
 
 fn parse(name: &str, file: &str, text: &str) -> Result<Scene> {

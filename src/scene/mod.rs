@@ -23,7 +23,7 @@ pub use aperture::{Aperture, ApertureImage, BLADES, Mask};
 pub use builtin::{BUILTINS, Builtin};
 pub use bvh::{Bounded, Bvh, Node, Record};
 pub use camera::{Camera, CameraModel, Frame, Hole, Lens};
-pub use file::{load, text_of};
+pub use file::{Loaded, load, load_with_text};
 pub use light::{Background, Light, LightKind};
 pub use material::{Checker, Material};
 pub use optics::{FRAME_HEIGHT_MM, vfov_of_focal_length};

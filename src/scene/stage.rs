@@ -76,11 +76,11 @@ impl Ground {
     }
 }
 
-/// The scene. Its lengths are those of the mesh's file; the mesh is moved onto the ground.
+/// The scene, and the text of a scene file of it. Its lengths are those of the mesh's file; the mesh is moved onto the ground.
 ///
 /// # Errors
 /// Those of [`Mesh::add_to`]; `Error::Mesh` for a mesh so small or large that f32 cannot show it.
-pub(super) fn around(mesh: &Mesh, name: &str) -> Result<Scene> {
+pub(super) fn around(mesh: &Mesh, name: &str) -> Result<(Scene, String)> {
     let ground = Ground::new(mesh)?;
     let placement = Placement::new(1.0, DVec3::ZERO, ground.position);
     let [lower, upper] = mesh.bounds();
@@ -113,16 +113,12 @@ pub(super) fn around(mesh: &Mesh, name: &str) -> Result<Scene> {
     let frame_metres = scene.camera.focal_length_mm() / 1000.0;
     scene.camera.metres_per_unit = frame_metres / F_NUMBER / f64::from(scene.lens.diameter);
     scene.hole.diameter = scene.camera.default_hole_diameter();
-    Ok(scene)
+    let text = scene_file(&scene, &ground);
+    Ok((scene, text))
 }
 
-/// The same scene as the text of a scene file, whose mesh is called so. There it is placed in f32, and so may lie
-/// a rounding away.
-///
-/// # Errors
-/// As [`around`].
-pub(super) fn scene_file(mesh: &Mesh, file: &str) -> Result<String> {
-    let (scene, ground) = (around(mesh, file)?, Ground::new(mesh)?);
+/// The text of a scene file of it. There the mesh is placed in f32, and so may lie a rounding away.
+fn scene_file(scene: &Scene, ground: &Ground) -> String {
     let numbers = |vector: Vec3| format!("[{}, {}, {}]", vector.x, vector.y, vector.z);
     let (camera, floor) = (&scene.camera, &scene.materials[0]);
     let mut text = format!(
@@ -162,10 +158,10 @@ pub(super) fn scene_file(mesh: &Mesh, file: &str) -> Result<String> {
         numbers(odd),
         ground.square as f32,
         ground.height as f32,
-        toml_edit::value(file),
+        toml_edit::value(&scene.name),
         numbers(ground.position.as_vec3()),
     );
-    Ok(text)
+    text
 }
 
 /// Looks at a box of this centre and half extent from where all its corners are in the picture.

@@ -94,7 +94,7 @@ impl Arguments {
     }
 }
 
-/// What a value is called on the command line.
-fn name_of<T: PartialEq>(names: &[(&'static str, T)], value: &T) -> &'static str {
+/// What a value is called on the command line and in scene files.
+pub(super) fn name_of<T: PartialEq>(names: &[(&'static str, T)], value: &T) -> &'static str {
     names.iter().find(|(_, named)| named == value).map_or("", |(name, _)| name)
 }

@@ -1,8 +1,9 @@
 //! Settings as a scene file: the scene's own, with the camera, its lens and the view as they are now.
 
+use super::arguments::name_of;
 use super::{MAX_EXPOSURE_STOPS, Settings, in_range};
 use crate::error::{Error, Result};
-use crate::scene::{self, CameraModel, Overlay, Scene};
+use crate::scene::{self, CameraModel, Loaded, Overlay, Scene};
 use glam::Vec3;
 use std::path::{Path, PathBuf};
 use toml_edit::{Array, DocumentMut, Item, Table, TableLike, Value, value};
@@ -16,9 +17,8 @@ impl Settings {
     /// Of reading the scene's own file, which may have changed since.
     pub fn scene_file(&self, folder: &Path) -> Result<String> {
         let source = &self.estimator.scene.source;
-        let (text, own_folder) = scene::text_of(source)?;
         // The file may have changed since it was loaded.
-        let scene = scene::load(source)?;
+        let Loaded { scene, text, folder: own_folder } = scene::load_with_text(source)?;
         let unusable = |message: String| Error::Scene { file: source.clone(), line: 1, message };
         let mut document: DocumentMut = text
             .parse()
@@ -68,8 +68,7 @@ impl Settings {
             keys.put("vfov_degrees", camera.vfov_degrees(), &["view_distance", "pixel_size"]);
         }
         if estimator.model != scene.model || preset {
-            let name = CameraModel::NAMES.iter().find(|(_, model)| *model == estimator.model);
-            keys.put("model", name.map_or("", |(name, _)| name), &[]);
+            keys.put("model", name_of(&CameraModel::NAMES, &estimator.model), &[]);
         }
         if estimator.lens.diameter != scene.lens.diameter || units || preset {
             keys.put("lens_diameter", digits(estimator.lens.diameter), &["f_number", "preset"]);
@@ -104,8 +103,8 @@ impl Settings {
         keys.change("exposure_lock", view.exposure_lock, own.exposure_lock, |is| is);
         keys.number("tolerance", view.tolerance, own.tolerance);
         if view.overlay != own.overlay {
-            match Overlay::NAMES.iter().find(|(_, overlay)| Some(*overlay) == view.overlay) {
-                Some((name, _)) => keys.put("overlay", *name, &[]),
+            match view.overlay {
+                Some(overlay) => keys.put("overlay", name_of(&Overlay::NAMES, &overlay), &[]),
                 None => drop(keys.0.remove("overlay")),
             }
         }
