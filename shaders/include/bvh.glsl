@@ -4,6 +4,10 @@
 // Nodes and shapes are records of one size in one buffer, and the children of a node follow one another. So
 // a step of the search fetches one record, whichever it is: where branches are only masked, fetches would
 // be made for both.
+//
+// Where branches are only masked, a node also goes through the arithmetic of a shape. Its packed bytes would be
+// denormal floats there, and Intel's processors take about a hundred times as long for an operation on one. So
+// what is no float lies where a shape has no float either, or is cleared before it is taken for one.
 
 #ifndef BVH_GLSL
 #define BVH_GLSL
@@ -29,7 +33,7 @@ layout(set = 0, binding = 12) uniform usamplerBuffer tree_velocities; // of its 
 // Boxes around the children, whose planes stand on a grid of the node's own.
 struct TreeNode {
     vec3 origin;
-    uint about; // bytes: the exponents of the grid's steps, and one that is not zero
+    uint about; // bytes: the exponents of the grid's steps, and the number of children
     uvec2 planes_x; // a byte for each child: the lower ones, then the upper
     uvec2 planes_y;
     uvec2 planes_z;
@@ -61,19 +65,27 @@ void fetch_record(uint index, out uvec4 record[3]) {
     record[2] = texelFetch(tree_records, at + 2);
 }
 
-// A shape has the index of its material there, which is smaller.
+// The number of a node's children. A shape has the index of its material there, which is smaller.
+uint child_count(uint about) {
+    return about >> 24u;
+}
+
 bool is_node(uvec4 record[3]) {
-    return record[0].w >= 1u << 24u;
+    return child_count(record[0].w) > 0u;
 }
 
 TreeNode to_node(uvec4 record[3]) {
-    return TreeNode(uintBitsToFloat(record[0].xyz), record[0].w, record[1].xy, record[1].zw, record[2].xy, record[2].z);
+    return TreeNode(uintBitsToFloat(record[0].xyz), record[0].w, record[1].xy, record[1].zw, record[2].xy, record[2].w);
 }
 
+// Of a node, a shape of size zero.
 TreeShape to_shape(uvec4 record[3]) {
+    // All ones for a shape, zero for a node. Written without a comparison, for a compiler that finds the branch's
+    // own condition here takes it for true and leaves the mask out.
+    uint if_shape = uint(int(child_count(record[0].w)) - 1 >> 31);
     return TreeShape(
-        uintBitsToFloat(record[0].xyz), record[0].w, uintBitsToFloat(record[1].xyz), record[1].w,
-        uintBitsToFloat(record[2].xyz), record[2].w
+        uintBitsToFloat(record[0].xyz), record[0].w, uintBitsToFloat(record[1].xyz & if_shape), record[1].w,
+        uintBitsToFloat(record[2].xyz & if_shape), record[2].w
     );
 }
 
@@ -110,10 +122,11 @@ float intersect_tree_shape(Ray ray, vec3 inverse_direction, TreeShape shape) {
 const uint FAR_KEY = 0xffffffffu;
 
 // A child's distance, which is not negative, and its number, in one unsigned number to sort by.
-uint child_key(vec3 enter, vec3 leave, float limit, uint child) {
+// No slack is small enough for the box of a child that is not there: exists says so.
+uint child_key(vec3 enter, vec3 leave, float limit, uint child, bool exists) {
     float near = larger(larger(enter.x, enter.y), larger(enter.z, 0.0));
     float far = smaller(smaller(leave.x, leave.y), smaller(leave.z, limit));
-    return near <= far * BOX_SLACK ? floatBitsToUint(near) & ~3u | child : FAR_KEY;
+    return exists && near <= far * BOX_SLACK ? floatBitsToUint(near) & ~3u | child : FAR_KEY;
 }
 
 #define SORT(a, b) { uint smaller_key = min(a, b); b = max(a, b); a = smaller_key; }
@@ -134,7 +147,7 @@ uint meet_children(Ray ray, vec3 inverse_direction, float limit, bool sorted, Tr
         uint by = 8u * child;
         vec3 enter = vec3(x.x >> by & 0xffu, y.x >> by & 0xffu, z.x >> by & 0xffu) * step + origin;
         vec3 leave = vec3(x.y >> by & 0xffu, y.y >> by & 0xffu, z.y >> by & 0xffu) * step + origin;
-        keys[child] = child_key(enter, leave, limit, child);
+        keys[child] = child_key(enter, leave, limit, child, child < child_count(node.about));
     }
     if (sorted) {
         SORT(keys[0], keys[1])

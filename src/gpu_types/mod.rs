@@ -88,8 +88,8 @@ pub struct Environment {
     pub pad2: u32,
 }
 
-/// The three texels of a node in bvh.glsl. The last byte of `about` is one, where a shape's index of a
-/// material has zero.
+/// The three texels of a node in bvh.glsl. The last byte of `about` is the number of children, where a shape's
+/// index of a material has zero. `first` stands where a shape has no float.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub struct TreeNode {
@@ -98,8 +98,8 @@ pub struct TreeNode {
     pub planes_x: [u32; 2],
     pub planes_y: [u32; 2],
     pub planes_z: [u32; 2],
-    pub first: u32,
     pub pad0: u32,
+    pub first: u32,
 }
 
 /// The three texels of a shape in bvh.glsl.

@@ -150,12 +150,12 @@ fn tree_node(node: &Node) -> TreeNode {
     let [planes_x, planes_y, planes_z] = node.planes.map(|planes| planes.map(u32::from_le_bytes));
     TreeNode {
         origin: node.origin.to_array(),
-        about: x | y << 8 | z << 16 | 1 << 24,
+        about: x | y << 8 | z << 16 | node.children << 24,
         planes_x,
         planes_y,
         planes_z,
-        first: node.first,
         pad0: 0,
+        first: node.first,
     }
 }
 

@@ -58,6 +58,8 @@ pub struct Node {
     pub planes: [[[u8; WIDTH]; 2]; 3],
     /// The index of the first child's record.
     pub first: u32,
+    /// How many children there are; the planes of others mean nothing.
+    pub children: u32,
 }
 
 impl Bvh {
@@ -150,8 +152,7 @@ impl Node {
         // The least steps that reach across.
         let steps = (extent / f64::from(LAST_PLANE)).max(DVec3::splat(f32::MIN_POSITIVE.into()));
         let exponents = steps.to_array().map(|step| step.log2().ceil() as i32);
-        // No ray meets a box whose lower planes are its upper ones.
-        let mut planes = [[[LAST_PLANE; WIDTH], [0; WIDTH]]; 3];
+        let mut planes = [[[0; WIDTH]; 2]; 3];
         for (child, aabb) in boxes.iter().enumerate() {
             for axis in 0..3 {
                 let place =
@@ -160,6 +161,6 @@ impl Node {
                 planes[axis][1][child] = place(aabb.max[axis]).ceil() as u8;
             }
         }
-        Self { origin, exponents, planes, first: first as u32 }
+        Self { origin, exponents, planes, first: first as u32, children: boxes.len() as u32 }
     }
 }
