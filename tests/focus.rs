@@ -48,7 +48,7 @@ fn the_device_knows_what_lies_under_a_pixel() {
                         worst = worst.max(error);
                         ensure!(error < 1e-4, "{place:?}: {} deep, not {expected}", surface.depth);
                         ensure!(!surface.material.is_empty(), "{place:?}: a material without a name");
-                        let along = surface.point.distance(settings.estimator.camera.eye.as_dvec3());
+                        let along = surface.point.distance(settings.estimator.camera.eye);
                         off_axis = off_axis.max(along / expected - 1.0);
                         surfaces += 1;
                     }
@@ -78,7 +78,7 @@ fn the_rays_of_a_place_go_through_its_point_in_focus() {
         let (mut renderer, frame) = (gpu.renderer(), estimator.camera.frame());
         renderer.set(&settings)?;
         let (mut rays, mut worst) = (0, 0.0_f64);
-        let (eye, radius) = (estimator.camera.eye.as_dvec3(), f64::from(estimator.lens.diameter) / 2.0);
+        let (eye, radius) = (estimator.camera.eye, f64::from(estimator.lens.diameter) / 2.0);
         for position in [[3.5, 40.5], [32.0, 24.0], [60.25, 7.75]] {
             let question = Question { position, fan: 9, samples: 16 };
             let picked = renderer.pick(question)?.expect("an answer");

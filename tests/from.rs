@@ -166,10 +166,11 @@ fn other_options_change_what_a_picture_says() {
 fn changed(scene: &SceneRef, random: &mut fastrand::Rng) -> Settings {
     let mut settings = Settings::of_scene(scene.clone());
     let (estimator, view) = (&mut settings.estimator, &mut settings.view);
+    let mut place = |low: f64, high: f64| low + random.f64() * (high - low);
+    estimator.camera.eye = glam::dvec3(place(-9.0, 9.0), place(1.0, 5.0), place(-1.0, 9.0));
+    estimator.camera.look_at = glam::dvec3(place(-1.0, 1.0), place(1.0, 5.0), place(-19.0, -9.0));
+    estimator.camera.up.x = place(-0.5, 0.5);
     let mut part = |low: f32, high: f32| low + random.f32() * (high - low);
-    estimator.camera.eye = glam::vec3(part(-9.0, 9.0), part(1.0, 5.0), part(-1.0, 9.0));
-    estimator.camera.look_at = glam::vec3(part(-1.0, 1.0), part(1.0, 5.0), part(-19.0, -9.0));
-    estimator.camera.up.x = part(-0.5, 0.5);
     estimator.camera.vfov_radians = (f64::from(part(5.0, 140.0)) / 1.01).to_radians();
     estimator.camera.metres_per_unit = f64::from(part(0.01, 3.0)) / 3.0;
     estimator.model = CameraModel::NAMES[part(0.0, 2.99) as usize].1;

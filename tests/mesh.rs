@@ -33,7 +33,7 @@ fn triangles(obj: &str) -> Vec<Triangle> {
     scene.triangles.iter().map(|triangle| triangle.shape).collect()
 }
 
-fn across(triangle: &Triangle) -> Vec3 {
+fn across(triangle: &Triangle) -> DVec3 {
     let [a, b, c] = triangle.vertices;
     (b - a).cross(c - a)
 }
@@ -111,9 +111,9 @@ fn polygons_become_triangles_of_the_same_area() {
         for form in forms {
             let triangles = face(form);
             assert_eq!(triangles.len(), corners as usize - 2);
-            let area: Vec3 = triangles.iter().map(across).sum::<Vec3>() / 2.0;
+            let area = triangles.iter().map(across).sum::<DVec3>() / 2.0;
             let expected = 0.5 * f64::from(corners) * angle.sin();
-            assert!((area - Vec3::Z * expected as f32).length() < 1e-5, "{corners}: {area}");
+            assert!((area - DVec3::Z * expected).length() < 1e-5, "{corners}: {area}");
             for triangle in &triangles {
                 assert!(triangle.vertices.iter().all(|vertex| vertex.z == 5.0));
                 assert!(normals(triangle).iter().all(|normal| (*normal - Vec3::Z).length() < 1e-6));
@@ -143,7 +143,7 @@ fn normals_of_the_file_are_kept() {
 fn missing_normals_are_smooth_up_to_the_crease() {
     for triangle in triangles(CUBE) {
         let own = across(&triangle).normalize();
-        assert!(normals(&triangle).iter().all(|normal| (*normal - own).length() < 1e-6));
+        assert!(normals(&triangle).iter().all(|normal| (normal.as_dvec3() - own).length() < 1e-6));
     }
     for repeated in [false, true] {
         let triangles = triangles(&sphere(8, repeated, false));
@@ -151,7 +151,7 @@ fn missing_normals_are_smooth_up_to_the_crease() {
         let flat = |of: &Triangle| across(of).angle_between(of.vertices[0]).to_degrees();
         assert!(triangles.iter().any(|of| flat(of) > 4.0), "flat faces would pass");
         for (vertex, normal) in triangles.iter().flat_map(|of| of.vertices.into_iter().zip(normals(of))) {
-            let off = normal.angle_between(vertex).to_degrees();
+            let off = normal.as_dvec3().angle_between(vertex).to_degrees();
             assert!(off < 3.0 && (normal.length() - 1.0).abs() < 1e-6, "{off} degrees at {vertex}");
         }
     }
@@ -173,8 +173,11 @@ fn missing_normals_are_smooth_up_to_the_crease() {
                 };
                 let meets = vertex.y == 0.0 && smooth;
                 let weights = [[1.0, 0.5], [1.0, 1.0], [2.0, 0.5], [0.5, 0.5]];
-                let found =
-                    if meets { weights.into_iter().any(near) } else { (normal - own).length() < 1e-6 };
+                let found = if meets {
+                    weights.into_iter().any(near)
+                } else {
+                    (normal.as_dvec3() - own).length() < 1e-6
+                };
                 assert!(found, "{degrees} degrees at {vertex}: {normal}");
             }
         }
@@ -196,7 +199,7 @@ fn a_mesh_is_scaled_then_turned_about_x_y_z_then_moved() {
     let expected_normals = [Vec3::X, -Vec3::Z, Vec3::Y];
     for corner in 0..3 {
         let (vertex, normal) = (triangle.vertices[corner], normals(&triangle)[corner]);
-        assert!((vertex - Vec3::from_array(expected[corner])).length() < 1e-5, "{vertex}");
+        assert!((vertex - DVec3::from_array(expected[corner])).length() < 1e-12, "{vertex}");
         assert!((normal - expected_normals[corner]).length() < 1e-6, "{normal}");
     }
 }
@@ -310,16 +313,16 @@ fn a_lone_mesh_is_framed_and_in_focus_at_its_nearest_point() {
 fn check_stage(scene: &Scene) {
     let (camera, lens) = (&scene.camera, &scene.lens);
     let frame = camera.frame();
-    let vertices: Vec<Vec3> = scene.triangles.iter().flat_map(|triangle| triangle.shape.vertices).collect();
-    let lower = vertices.iter().copied().reduce(Vec3::min).expect("vertices");
-    let upper = vertices.iter().copied().reduce(Vec3::max).expect("vertices");
-    let diagonal = f64::from((upper - lower).length());
+    let vertices: Vec<DVec3> = scene.triangles.iter().flat_map(|triangle| triangle.shape.vertices).collect();
+    let lower = vertices.iter().copied().reduce(DVec3::min).expect("vertices");
+    let upper = vertices.iter().copied().reduce(DVec3::max).expect("vertices");
+    let diagonal = (upper - lower).length();
     let highest = (0.5 * camera.vfov_radians).tan();
     let widest = highest * f64::from(scene.size[0]) / f64::from(scene.size[1]);
     let mut fill = 0_f64;
     for corner in 0..8_u32 {
-        let bits = Vec3::from_array([0, 1, 2].map(|bit| (corner >> bit & 1) as f32));
-        let at = (lower + bits * (upper - lower) - camera.eye).as_dvec3();
+        let bits = DVec3::from_array([0, 1, 2].map(|bit| f64::from(corner >> bit & 1)));
+        let at = lower + bits * (upper - lower) - camera.eye;
         let depth = -at.dot(frame.w());
         assert!(depth > 0.05 * diagonal, "the eye stands clear of the mesh");
         fill = fill.max((at.dot(frame.u()) / depth / widest).abs());
@@ -328,9 +331,9 @@ fn check_stage(scene: &Scene) {
     // A box that the camera looks along is held farther away than it would need.
     assert!((0.3..0.85).contains(&fill), "the box fills {fill} of the picture");
     let ground = scene.planes[0].shape;
-    let gap = f64::from(lower.y - ground.point.y) / diagonal;
+    let gap = (lower.y - ground.point.y) / diagonal;
     assert!(ground.normal == Vec3::Y && (0.0..2e-3).contains(&gap), "the mesh is {gap} above the ground");
-    let depths = vertices.iter().map(|vertex| frame.axial_depth(camera.eye, vertex.as_dvec3()));
+    let depths = vertices.iter().map(|vertex| frame.axial_depth(camera.eye, *vertex));
     let (near, far) = depths.fold((f64::INFINITY, 0.0_f64), |(near, far), z| (near.min(z), far.max(z)));
     let focus = f64::from(lens.focal_distance);
     assert!((focus / near - 1.0).abs() < 1e-5, "{focus} is not {near}");
@@ -354,8 +357,8 @@ fn the_oracle_interpolates_normals() {
     let scene = load(&[("t.toml", toml.as_bytes()), ("m.obj", obj.as_bytes())]).expect("a mesh");
     let mut random = fastrand::Rng::with_seed(3);
     for triangle in scene.triangles.iter().map(|triangle| triangle.shape) {
-        let corners = triangle.vertices.map(|vertex| vertex.as_dvec3());
-        let flat = across(&triangle).as_dvec3().normalize();
+        let corners = triangle.vertices;
+        let flat = across(&triangle).normalize();
         let outward = if flat.dot(corners[0]) > 0.0 { flat } else { -flat };
         let mut weights = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         weights.extend((0..5).map(|_| {

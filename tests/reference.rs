@@ -63,7 +63,7 @@ fn primary_rays_meet_in_the_focal_plane() {
     let settings = settings_of(CAMERA, [40, 30], 1);
     let estimator = &settings.estimator;
     let frame = estimator.camera.frame();
-    let eye = estimator.camera.eye.as_dvec3();
+    let eye = estimator.camera.eye;
     let reference = Reference::new(estimator);
     for pixel in [[0, 0], [39, 0], [0, 29], [39, 29], [20, 15], [7, 22]] {
         for index in 0..50 {

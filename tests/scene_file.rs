@@ -168,7 +168,7 @@ fn the_built_in_scenes_are_those_of_the_book() {
     assert_eq!((boxes.lens.diameter, boxes.lens.focal_distance), (2.0, 74.0));
     assert_eq!(boxes.boxes.len(), 3);
     // The focal plane lies on the front of the middle box.
-    let depth = boxes.camera.frame().axial_depth(boxes.camera.eye, boxes.boxes[1].shape.upper.as_dvec3());
+    let depth = boxes.camera.frame().axial_depth(boxes.camera.eye, boxes.boxes[1].shape.upper);
     assert!((depth - 74.0).abs() < 1e-9);
 
     let mirror = scene::load("suffern-mirror").expect("a built-in");
@@ -176,7 +176,7 @@ fn the_built_in_scenes_are_those_of_the_book() {
     assert!((mirror.camera.view_distance_pixels(300) - 600.0).abs() < 1e-9, "k is 600 pixels");
     // The red plane lies on the focal plane, 100 along the axis, and across it.
     let (camera, red) = (&mirror.camera, mirror.planes[1].shape);
-    let depth = camera.frame().axial_depth(camera.eye, red.point.as_dvec3());
+    let depth = camera.frame().axial_depth(camera.eye, red.point);
     assert!((depth - 100.0).abs() < 1e-4, "{depth}");
     assert!(red.normal.as_dvec3().normalize().dot(camera.frame().w()) > 1.0 - 1e-12);
 

@@ -8,10 +8,11 @@ use common::probe::probe;
 use common::scenes::{EVERYTHING, ROOM, one_behind_the_other};
 use common::{Gpu, plain_scene_of, prove, scene_of};
 use glam::{DVec3, Vec3};
+use thinlens::gpu_types::SceneData;
 use thinlens::reference::intersect::intersect;
 use thinlens::reference::shading::radiance;
 use thinlens::reference::{Ray, sampler};
-use thinlens::scene::{Bvh, SceneRef, Shaded, Triangle};
+use thinlens::scene::{SceneRef, Shaded, Triangle};
 use thinlens::settings::Sampler;
 
 #[repr(C)]
@@ -126,7 +127,7 @@ fn shapes() -> Vec<(&'static str, SceneRef)> {
 /// Its tree is deeper than the part of the shaders' stack that is spelled out.
 fn chain() -> SceneRef {
     let scene = scene_of(&(CAMERA.to_owned() + &one_behind_the_other()));
-    let depth = Bvh::new(&scene, 1.0).expect("a tree").depth;
+    let depth = SceneData::new(&scene, 1.0).tree.expect("a tree").depth;
     assert!(depth > 20, "the chain's tree is {depth} deep only");
     scene
 }
@@ -164,9 +165,9 @@ fn everything_and_smooth_triangles() -> SceneRef {
     for index in 0..200 {
         let [x, y, z, _] = random(index, 10);
         let center = DVec3::new(2.0 * x, 1.0 + y, 2.0 * z);
-        let vertices = [11, 12, 13].map(|stream| (center + 0.5 * random_direction(index, stream)).as_vec3());
+        let vertices = [11, 12, 13].map(|stream| center + 0.5 * random_direction(index, stream));
         let [a, b, c] = vertices;
-        let across = (b - a).cross(c - a).normalize();
+        let across = (b - a).cross(c - a).normalize().as_vec3();
         // So far from the triangle's own that mirror images leave below the surface, and some on the other
         // side of it.
         let spread = if index % 3 == 0 { 4.0 } else { 1.2 };

@@ -11,7 +11,7 @@ const uint APERTURE_CATS_EYE = 2u;
 const uint APERTURE_IMAGE = 3u;
 const uint APERTURE_ELLIPSE = 4u;
 
-layout(constant_id = 14) const uint APERTURE = APERTURE_DISC;
+layout(constant_id = 15) const uint APERTURE = APERTURE_DISC;
 
 struct Aperture {
     vec2 stretch; // half its width and height, of an opening of diameter two

@@ -101,11 +101,18 @@ TreeShape shape_now(uvec4 record[3], out vec3 way) {
     return shape;
 }
 
+Triangle to_triangle(TreeShape shape) {
+    vec3 longest = max(abs(shape.a), abs(shape.b));
+    float size = larger(longest.x, larger(longest.y, longest.z));
+    float offset = dot(cross(shape.a, shape.b), shape.position);
+    return Triangle(shape.position, offset, shape.a, size, shape.b);
+}
+
 float intersect_tree_shape(Ray ray, vec3 inverse_direction, TreeShape shape) {
     float distance = MISS;
     if (in_tree(KIND_TRIANGLE)) {
         vec2 barycentric;
-        distance = intersect_triangle(ray, Triangle(shape.position, shape.a, shape.b), barycentric);
+        distance = intersect_triangle(ray, to_triangle(shape), barycentric);
     }
     if (in_tree(KIND_SPHERE)) {
         float at_sphere = intersect_sphere(ray, Sphere(shape.position, shape.a.x));
@@ -113,7 +120,8 @@ float intersect_tree_shape(Ray ray, vec3 inverse_direction, TreeShape shape) {
     }
     if (in_tree(KIND_BOX)) {
         vec3 normal;
-        float at_box = intersect_box(ray, inverse_direction, Box(shape.position, shape.a), normal);
+        float offset;
+        float at_box = intersect_box(ray, inverse_direction, Box(shape.position, shape.a), normal, offset);
         distance = shape.kind == KIND_BOX ? at_box : distance;
     }
     return distance;
@@ -256,17 +264,20 @@ Hit intersect_tree(Ray ray, vec3 inverse_direction, inout bool given_up) {
     fetch_record(index, record);
     vec3 way;
     TreeShape shape = shape_now(record, way);
-    Hit hit = Hit(distance, shape.material, -shape.position, 1.0, vec3(0.0), way);
+    Hit hit = Hit(distance, shape.material, -shape.position, 1.0, shape.a.x, 0.0, vec3(0.0), way);
     if (in_tree(KIND_BOX) && shape.kind == KIND_BOX) {
-        intersect_box(ray, inverse_direction, Box(shape.position, shape.a), hit.normal);
+        intersect_box(ray, inverse_direction, Box(shape.position, shape.a), hit.normal, hit.offset);
         hit.curvature = 0.0;
     }
     if (in_tree(KIND_TRIANGLE) && shape.kind == KIND_TRIANGLE) {
+        Triangle triangle = to_triangle(shape);
         hit.normal = cross(shape.a, shape.b);
         hit.curvature = 0.0;
+        hit.offset = triangle.offset;
+        hit.size = triangle.size;
         if (in_tree(KIND_SMOOTH)) {
             vec2 barycentric;
-            intersect_triangle(ray, Triangle(shape.position, shape.a, shape.b), barycentric);
+            intersect_triangle(ray, to_triangle(shape), barycentric);
             hit.shading_normal = interpolated_normal(shape.index, barycentric, hit.normal);
         }
     }

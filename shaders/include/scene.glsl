@@ -1,4 +1,4 @@
-// The scene as the shaders see it. Shapes are numbered spheres first, then boxes, triangles,
+// The scene as the shaders see it: its coordinates are seen from the middle of it. Shapes are numbered spheres first, then boxes, triangles,
 // planes; material_of_shape is indexed by that number.
 
 #ifndef SCENE_GLSL
@@ -16,7 +16,9 @@ struct Box {
 
 struct Triangle {
     vec3 vertex;
+    float offset; // dot(cross(edge1, edge2), vertex)
     vec3 edge1;
+    float size; // of its longest edge, along an axis
     vec3 edge2;
 };
 
@@ -35,6 +37,7 @@ struct Material {
     float ks;
     vec3 emission;
     float exponent;
+    vec3 checker_phase; // where the scene's own origin lies in the checker, as seen from the device's
     float inverse_checker_size; // 0: one colour
 };
 
@@ -48,6 +51,7 @@ struct Environment {
     vec3 horizon;
     vec3 zenith;
     vec3 ambient; // radiance
+    float reach; // every shape but planes lies within this distance of the origin, at any time
 };
 
 // The numbers of things are specialization constants, so that loops over them can unroll.
@@ -65,6 +69,8 @@ layout(constant_id = 9) const uint SCENE_IS_KEPT = 0u;
 
 // Whether any shape moves.
 layout(constant_id = 13) const uint SCENE_MOVES = 0u;
+// Whether checkers have a phase.
+layout(constant_id = 14) const uint SCENE_IS_SHIFTED = 0u;
 
 // Of the sample that is traced: seconds from the middle of the exposure, where the shapes are as given.
 float ray_time = 0.0;

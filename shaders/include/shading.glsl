@@ -7,17 +7,18 @@
 
 const float INVERSE_PI = 0.318309886;
 
-// A surface point moves off its surface by this share of its coordinates or of the ray's length,
-// whichever is larger: some hundred times the rounding error of the hit, and far below a pixel.
-const float SURFACE_OFFSET = 3e-5;
-
-// Suffern's 3D checker: the first colour where the cells' coordinates sum to an even number. The
-// small shift keeps faces that lie on cell boundaries out of the rounding error.
-vec3 surface_color(Material material, vec3 position) {
+// Suffern's 3D checker: the first colour where the cells' coordinates sum to an even number. A face that lies on
+// the boundary of two layers of cells belongs to the lower one: the position is taken so much lower as it may
+// be off, and as the phase, of up to two cells, is rounded.
+vec3 surface_color(Material material, vec3 position, float error) {
     if (material.inverse_checker_size == 0.0) {
         return material.color;
     }
-    ivec3 cell = ivec3(floor((position - 1.87e-4) * material.inverse_checker_size));
+    position -= error + 2.0 * ROUNDING / material.inverse_checker_size;
+    if (SCENE_IS_SHIFTED == 1u) {
+        position += material.checker_phase;
+    }
+    ivec3 cell = ivec3(floor(position * material.inverse_checker_size));
     bool odd = ((cell.x + cell.y + cell.z) & 1) != 0;
     return odd ? material.odd_color : material.color;
 }
@@ -34,7 +35,8 @@ struct SurfacePoint {
     vec3 position;
     vec3 normal;
     vec3 shading_normal;
-    vec3 lifted; // the position, moved off the surface
+    float error; // how far off the surface the position may be
+    vec3 lifted; // the position, moved off the surface by this much
     vec3 on_shape; // the position where the shape was in the middle of the exposure
 };
 
@@ -66,7 +68,7 @@ vec3 reflected_light(Material material, vec3 color, Light light, bool casts_shad
 
 // Emission, ambient, and direct light with hard shadows, towards -ray.direction.
 vec3 shade(Material material, Ray ray, SurfacePoint at, inout uint rays, inout bool given_up) {
-    vec3 color = surface_color(material, at.on_shape);
+    vec3 color = surface_color(material, at.on_shape, at.error);
     vec3 sum = material.emission + material.ka * color * get_environment().ambient;
     if (material.kd == 0.0 && material.ks == 0.0) {
         return sum;
@@ -103,18 +105,16 @@ vec3 radiance(Ray ray, uint max_bounces, inout uint rays) {
         }
         SurfacePoint at;
         at.position = ray.origin + hit.distance * ray.direction;
+        at.normal = find_surface(hit, at.position, at.error);
         at.on_shape = at.position;
         if (SCENE_MOVES == 1u) {
             at.on_shape -= hit.way;
         }
-        at.normal = surface_normal(hit, at.position);
         at.shading_normal = hit.shading_normal == vec3(0.0) ? at.normal : hit.shading_normal;
         bool from_behind = dot(at.normal, ray.direction) > 0.0;
         at.normal = from_behind ? -at.normal : at.normal;
         at.shading_normal = from_behind ? -at.shading_normal : at.shading_normal;
-        vec3 magnitude = abs(at.position);
-        float offset = SURFACE_OFFSET * larger(hit.distance, larger(magnitude.x, larger(magnitude.y, magnitude.z)));
-        at.lifted = at.position + offset * at.normal;
+        at.lifted = at.position + at.error * at.normal;
 
         Material material = get_material(hit.material);
         sum += throughput * shade(material, ray, at, rays, given_up);

@@ -86,20 +86,19 @@ impl Navigate {
     }
 }
 
-/// Places the camera so, where f32 still tells its place from what it looks at.
+/// Places the camera so, where it can stand there.
 fn place(camera: &mut Camera, eye: DVec3, look_at: DVec3) {
-    let (eye, look_at) = (eye.as_vec3(), look_at.as_vec3());
-    let moved = Camera { eye, look_at, ..*camera };
-    let within = |point: glam::Vec3| point.abs().max_element() <= MAX_LENGTH;
-    if within(eye) && within(look_at) && moved.fault().is_none() {
+    let moved = Camera { eye, look_at, ..*camera }.with_few_digits();
+    let within = |point: DVec3| point.abs().max_element() <= f64::from(MAX_LENGTH);
+    if within(moved.eye) && within(moved.look_at) && moved.fault().is_none() {
         *camera = moved;
     }
 }
 
 /// Turns around what is looked at: to the right by the first angle, and up by the second.
 fn orbit(camera: &mut Camera, [right, up]: [f64; 2]) {
-    let (eye, look_at) = (camera.eye.as_dvec3(), camera.look_at.as_dvec3());
-    let pole = camera.up.as_dvec3().normalize();
+    let (eye, look_at) = (camera.eye, camera.look_at);
+    let pole = camera.up.normalize();
     let away = DQuat::from_axis_angle(pole, right) * (eye - look_at);
     let from_pole = away.angle_between(pole);
     let turned = (from_pole - up).clamp(POLE, std::f64::consts::PI - POLE) - from_pole;
@@ -109,7 +108,7 @@ fn orbit(camera: &mut Camera, [right, up]: [f64; 2]) {
 
 /// Moves sideways, so that what is looked at follows the mouse by so many points.
 fn pan(camera: &mut Camera, [x, y]: [f64; 2], height: f32) {
-    let (eye, look_at, frame) = (camera.eye.as_dvec3(), camera.look_at.as_dvec3(), camera.frame());
+    let (eye, look_at, frame) = (camera.eye, camera.look_at, camera.frame());
     let pixel = 2.0 * (0.5 * camera.vfov_radians).tan() * eye.distance(look_at) / f64::from(height);
     let shift = (y * frame.v() - x * frame.u()) * pixel;
     place(camera, eye + shift, look_at + shift);
@@ -117,13 +116,13 @@ fn pan(camera: &mut Camera, [x, y]: [f64; 2], height: f32) {
 
 /// Moves towards what is looked at, to this share of the distance.
 fn dolly(camera: &mut Camera, share: f64) {
-    let (eye, look_at) = (camera.eye.as_dvec3(), camera.look_at.as_dvec3());
+    let (eye, look_at) = (camera.eye, camera.look_at);
     place(camera, look_at + (eye - look_at) * share, look_at);
 }
 
 /// Moves right, up and forward, in distances to what is looked at.
 fn fly(camera: &mut Camera, [right, up, forward]: [f64; 3]) {
-    let (eye, look_at, frame) = (camera.eye.as_dvec3(), camera.look_at.as_dvec3(), camera.frame());
+    let (eye, look_at, frame) = (camera.eye, camera.look_at, camera.frame());
     let shift = (right * frame.u() + up * frame.v() - forward * frame.w()) * eye.distance(look_at);
     place(camera, eye + shift, look_at + shift);
 }

@@ -61,7 +61,7 @@ struct Open {
     /// Lens diameter, focal distance and jitter that were reported last.
     state: [f32; 3],
     /// Likewise, where the camera stands and what it looks at.
-    camera: [glam::Vec3; 2],
+    camera: [glam::DVec3; 2],
     /// Likewise, camera model, field of view in degrees, blades and cat's eye.
     view: String,
     /// Likewise, what is allocated on the device.
@@ -197,7 +197,7 @@ impl Open {
             dragging: false,
             shown: (0, 0),
             state: [f32::NAN; 3],
-            camera: [glam::Vec3::NAN; 2],
+            camera: [glam::DVec3::NAN; 2],
             view: String::new(),
             memory: Vec::new(),
             occluded: false,

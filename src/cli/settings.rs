@@ -6,7 +6,7 @@ use crate::scene::{self, ApertureImage, BUILTINS, CameraModel, Overlay, PRESETS,
 use crate::settings::{DEFAULT_SAMPLES, Sampler, Settings};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use glam::Vec3;
+use glam::DVec3;
 use std::path::PathBuf;
 
 /// Samples per pixel that the viewer goes for, unless another number is asked for.
@@ -29,13 +29,13 @@ pub struct SettingsArgs {
     pub size: Option<[u32; 2]>,
     /// Where the lens centre is [default: the scene's]
     #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
-    eye: Option<Vec3>,
+    eye: Option<DVec3>,
     /// A point that the camera looks at [default: the scene's]
     #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
-    look_at: Option<Vec3>,
+    look_at: Option<DVec3>,
     /// Which way is roughly up [default: the scene's]
     #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
-    up: Option<Vec3>,
+    up: Option<DVec3>,
     /// Field of view from the lower to the upper edge, in degrees [default: the scene's]
     #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
     vfov: Option<f64>,
@@ -286,10 +286,10 @@ fn one_of<T: Copy + Send + Sync + 'static>(
     })
 }
 
-fn parse_vector(text: &str) -> Result<Vec3, String> {
-    let numbers: Result<Vec<f32>, _> = text.split(',').map(|number| number.trim().parse()).collect();
-    let vector = numbers.ok().and_then(|numbers| <[f32; 3]>::try_from(numbers).ok());
-    vector.map(Vec3::from_array).ok_or_else(|| "a place or direction is X,Y,Z, such as 0,1.5,-10".into())
+fn parse_vector(text: &str) -> Result<DVec3, String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|number| number.trim().parse()).collect();
+    let vector = numbers.ok().and_then(|numbers| <[f64; 3]>::try_from(numbers).ok());
+    vector.map(DVec3::from_array).ok_or_else(|| "a place or direction is X,Y,Z, such as 0,1.5,-10".into())
 }
 
 fn parse_shutter(text: &str) -> Result<f32, String> {

@@ -35,11 +35,11 @@ pub struct Box {
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub struct Triangle {
     pub vertex: [f32; 3],
-    pub pad0: u32,
+    pub offset: f32,
     pub edge1: [f32; 3],
-    pub pad1: u32,
+    pub size: f32,
     pub edge2: [f32; 3],
-    pub pad2: u32,
+    pub pad0: u32,
 }
 
 /// `Plane` of scene.glsl.
@@ -62,8 +62,8 @@ pub struct Material {
     pub ks: f32,
     pub emission: [f32; 3],
     pub exponent: f32,
+    pub checker_phase: [f32; 3],
     pub inverse_checker_size: f32,
-    pub pad0: [u32; 3],
 }
 
 /// `Light` of scene.glsl.
@@ -85,7 +85,7 @@ pub struct Environment {
     pub zenith: [f32; 3],
     pub pad1: u32,
     pub ambient: [f32; 3],
-    pub pad2: u32,
+    pub reach: f32,
 }
 
 /// The three texels of a node in bvh.glsl. The last byte of `about` is the number of children, where a shape's
@@ -304,7 +304,7 @@ impl Camera {
             }
         };
         Self {
-            eye: camera.eye.to_array(),
+            eye: estimator.scene.on_device(camera.eye).to_array(),
             lens_radius: 0.5 * diameter,
             u: frame.u().as_vec3().to_array(),
             inverse_focal_distance,

@@ -39,8 +39,9 @@ pub struct SceneBuffers {
     tree: [Arc<TexelBuffer>; 3],
     /// Of the shapes that are not in it.
     velocities: Arc<Buffer>,
-    /// Whether any shape moves.
+    /// Whether any shape moves, and whether checkers have a phase.
     moves: bool,
+    shifted: bool,
     /// The tree's depth, the kinds in it, and the most steps that a ray can take in it.
     tree_constants: [u32; 3],
     /// Spheres, boxes, triangles, planes, lights, lights that cast shadows, materials.
@@ -90,6 +91,7 @@ impl SceneBuffers {
             ],
             velocities: Arc::new(Buffer::upload(device, "velocities", &scene.velocities)?),
             moves: scene.moves,
+            shifted: scene.shifted,
             tree_constants: [depth, kinds, steps],
             counts: [
                 count(scene.spheres.len()),
@@ -140,7 +142,7 @@ impl SceneBuffers {
             .chain(self.counts)
             .chain([self.kept.into()])
             .chain(self.tree_constants)
-            .chain([self.moves.into()])
+            .chain([self.moves.into(), self.shifted.into()])
             .collect()
     }
 

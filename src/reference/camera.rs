@@ -36,10 +36,10 @@ enum Opening {
 impl Projection {
     pub(super) fn new(estimator: &Estimator) -> Self {
         let camera = &estimator.camera;
-        let w = (camera.eye.as_dvec3() - camera.look_at.as_dvec3()).normalize();
-        let u = camera.up.as_dvec3().cross(w).normalize();
+        let w = (camera.eye - camera.look_at).normalize();
+        let u = camera.up.cross(w).normalize();
         Self {
-            eye: camera.eye.as_dvec3(),
+            eye: camera.eye,
             u,
             v: w.cross(u),
             w,

@@ -55,7 +55,7 @@ type Crossing = (f64, DVec3);
 
 /// |o + t d - c|^2 = r^2.
 fn sphere(sphere: &Sphere, ray: Ray, least: f64) -> Option<Crossing> {
-    let center = sphere.center.as_dvec3();
+    let center = sphere.center;
     let radius = f64::from(sphere.radius);
     let from_center = ray.origin - center;
     let half_b = from_center.dot(ray.direction);
@@ -71,7 +71,7 @@ fn sphere(sphere: &Sphere, ray: Ray, least: f64) -> Option<Crossing> {
 
 /// The six faces one by one.
 fn aabb(aabb: &Aabb, ray: Ray, least: f64) -> Option<Crossing> {
-    let (lower, upper) = (aabb.lower.as_dvec3().to_array(), aabb.upper.as_dvec3().to_array());
+    let (lower, upper) = (aabb.lower.to_array(), aabb.upper.to_array());
     let (origin, direction) = (ray.origin.to_array(), ray.direction.to_array());
     let mut nearest: Option<Crossing> = None;
     for axis in 0..3 {
@@ -97,7 +97,7 @@ fn aabb(aabb: &Aabb, ray: Ray, least: f64) -> Option<Crossing> {
 
 /// o + t d = a + b1 (b - a) + b2 (c - a), by Cramer's rule. Distance, normal, shading normal.
 fn triangle(triangle: &Triangle, ray: Ray, least: f64) -> Option<(f64, DVec3, DVec3)> {
-    let [a, b, c] = triangle.vertices.map(|vertex| vertex.as_dvec3());
+    let [a, b, c] = triangle.vertices;
     let (edge1, edge2) = (b - a, c - a);
     let matrix = DMat3::from_cols(edge1, edge2, -ray.direction);
     if matrix.determinant() == 0.0 {
@@ -123,6 +123,6 @@ fn shading_normal(triangle: &Triangle, b1: f64, b2: f64, normal: DVec3) -> DVec3
 /// n . (o + t d - p) = 0.
 fn plane(plane: &Plane, ray: Ray, least: f64) -> Option<Crossing> {
     let normal = plane.normal.as_dvec3().normalize();
-    let distance = normal.dot(plane.point.as_dvec3() - ray.origin) / normal.dot(ray.direction);
+    let distance = normal.dot(plane.point - ray.origin) / normal.dot(ray.direction);
     (distance.is_finite() && distance > least).then_some((distance, normal))
 }

@@ -53,13 +53,13 @@ fn emitted_and_reflected(
 ) -> DVec3 {
     let (to_viewer, time) = (-ray.direction, ray.time);
     // A shape takes its colours along.
-    let color = color(material, position - time * hit.velocity);
+    let color = color(material, position - time * hit.velocity, least);
     let mut sum = material.emission.as_dvec3() + f64::from(material.ka) * color * scene.ambient.as_dvec3();
     for light in &scene.lights {
         let (to_light, light_distance) = match light.kind {
             LightKind::Directional(direction) => (direction.as_dvec3().normalize(), f64::INFINITY),
             LightKind::Point(at) => {
-                let path = at.as_dvec3() - position;
+                let path = at - position;
                 (path.normalize(), path.length())
             }
         };
@@ -86,9 +86,10 @@ fn emitted_and_reflected(
     sum
 }
 
-fn color(material: &Material, position: DVec3) -> DVec3 {
+/// A point on the boundary of two cells belongs to the lower one, also where it is `rounding` above.
+fn color(material: &Material, position: DVec3, rounding: f64) -> DVec3 {
     let odd = material.checker.as_ref().filter(|checker| {
-        let cells = ((position - 1.87e-4) / f64::from(checker.size)).floor();
+        let cells = ((position - rounding) / f64::from(checker.size)).floor();
         (cells.x + cells.y + cells.z).rem_euclid(2.0) == 1.0
     });
     odd.map_or(material.color, |checker| checker.odd_color).as_dvec3()

@@ -145,7 +145,7 @@ impl Renderer {
         let vector = |vector: [f32; 3]| Vec3::from_array(vector).as_dvec3();
         let rays: Vec<LensRay> = (traced.iter())
             .map(|ray| LensRay {
-                origin: vector(ray.origin),
+                origin: scene.middle() + vector(ray.origin),
                 direction: vector(ray.direction),
                 distance: if ray.distance < MISS { ray.distance.into() } else { f64::INFINITY },
             })
@@ -157,7 +157,8 @@ impl Renderer {
             let material = scene.material_names.get(traced[0].material as usize).cloned();
             Surface { point, depth, material: material.unwrap_or_default() }
         });
-        Some(Picked { question, surface, focus: vector(traced[0].focus), rays })
+        let focus = scene.middle() + vector(traced[0].focus);
+        Some(Picked { question, surface, focus, rays })
     }
 
     /// What is at a place of the picture, at once, without a window.

@@ -2,7 +2,7 @@
 //! node, compressed after H. Ylitie et al., "Efficient Incoherent Ray Traversal on GPUs Through Compressed
 //! Wide BVHs", HPG 2017.
 
-use super::{Aabb, Scene, Shaded, Sphere, Triangle};
+use super::{Aabb, Shaded, Sphere, Triangle};
 use glam::{DVec3, Vec3, Vec3A};
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb as Bounds;
@@ -63,13 +63,9 @@ pub struct Node {
 }
 
 impl Bvh {
-    /// Around all spheres, boxes and triangles of a scene, and all places where they come by while the shutter
-    /// is open for so many seconds. None where it has none.
-    pub fn new(scene: &Scene, shutter: f32) -> Option<Self> {
-        let spheres = scene.spheres.iter().map(|of| of.map(Bounded::Sphere));
-        let boxes = scene.boxes.iter().map(|of| of.map(Bounded::Box));
-        let triangles = scene.triangles.iter().map(|of| of.map(Bounded::Triangle));
-        let shapes: Vec<_> = spheres.chain(boxes).chain(triangles).collect();
+    /// Around these shapes, and all places where they come by while the shutter is open for so many seconds.
+    /// None where there are none.
+    pub fn new(shapes: Vec<Shaded<Bounded>>, shutter: f32) -> Option<Self> {
         if shapes.is_empty() {
             return None;
         }
@@ -86,10 +82,13 @@ impl Bounded {
     /// The box around it, wider by so much on either side, and by what f32 may lose of a point on it.
     fn bounds(&self, wider: Vec3) -> Bounds {
         let (lower, upper) = match self {
-            Self::Sphere(sphere) => (sphere.center - sphere.radius, sphere.center + sphere.radius),
-            Self::Box(aabb) => (aabb.lower, aabb.upper),
+            Self::Sphere(sphere) => {
+                let center = sphere.center.as_vec3();
+                (center - sphere.radius, center + sphere.radius)
+            }
+            Self::Box(aabb) => (aabb.lower.as_vec3(), aabb.upper.as_vec3()),
             Self::Triangle(triangle) => {
-                let [a, b, c] = triangle.vertices;
+                let [a, b, c] = triangle.vertices.map(|vertex| vertex.as_vec3());
                 (a.min(b).min(c), a.max(b).max(c))
             }
         };

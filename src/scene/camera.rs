@@ -1,16 +1,16 @@
 //! The camera, its thin lens, and its hole.
 
-use glam::{DMat3, DVec3, Vec3};
+use glam::{DMat3, DVec3};
 
 /// Where the picture is taken from. Lengths are in scene units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
     /// The lens centre.
-    pub eye: Vec3,
+    pub eye: DVec3,
     /// A point on the optical axis.
-    pub look_at: Vec3,
+    pub look_at: DVec3,
     /// Roughly upwards; not along the axis.
-    pub up: Vec3,
+    pub up: DVec3,
     /// The angle from the picture's lower to its upper edge, seen from the eye.
     pub vfov_radians: f64,
     /// The length in metres of one scene unit.
@@ -63,9 +63,22 @@ pub struct Frame {
 impl Camera {
     /// The camera's frame.
     pub fn frame(&self) -> Frame {
-        let w = (self.eye - self.look_at).as_dvec3().normalize();
-        let u = self.up.as_dvec3().cross(w).normalize();
+        let w = (self.eye - self.look_at).normalize();
+        let u = self.up.cross(w).normalize();
         Frame { world_from_camera: DMat3::from_cols(u, w.cross(u), w) }
+    }
+
+    /// The same camera, with places of about seven digits, counted from its distance to what it looks at: more
+    /// cannot be seen, and would only be long to read.
+    #[must_use]
+    pub fn with_few_digits(&self) -> Self {
+        let decimals = 6 - self.eye.distance(self.look_at).log10().floor() as i32;
+        // A power of ten with a positive exponent is exact, and so the quotient is the nearest number to its decimals.
+        let power = 10_f64.powi(decimals.abs());
+        let rounded = |point: DVec3| {
+            if decimals < 0 { (point / power).round() * power } else { (point * power).round() / power }
+        };
+        Self { eye: rounded(self.eye), look_at: rounded(self.look_at), ..*self }
     }
 
     /// The field of view in degrees: such that the same radians come of it again, to the bit, where they came
@@ -83,20 +96,20 @@ impl Camera {
 
     /// Why no frame can be made of it, if so.
     pub fn fault(&self) -> Option<&'static str> {
-        let axis = (self.eye - self.look_at).as_dvec3();
+        let axis = self.eye - self.look_at;
         if axis.length_squared() == 0.0 {
             return Some("eye and look_at are the same point");
         }
-        let across = self.up.as_dvec3().cross(axis.normalize()).length();
-        (across <= 1e-9 * self.up.as_dvec3().length() || self.up == Vec3::ZERO)
+        let across = self.up.cross(axis.normalize()).length();
+        (across <= 1e-9 * self.up.length() || self.up == DVec3::ZERO)
             .then_some("up points along the line of sight; choose another direction for it")
     }
 }
 
 impl Frame {
     /// The depth of a point along the optical axis, in front of the eye.
-    pub fn axial_depth(&self, eye: Vec3, point: DVec3) -> f64 {
-        -self.w().dot(point - eye.as_dvec3())
+    pub fn axial_depth(&self, eye: DVec3, point: DVec3) -> f64 {
+        -self.w().dot(point - eye)
     }
 
     /// Right.

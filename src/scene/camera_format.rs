@@ -7,7 +7,7 @@ use super::{
     Aperture, ApertureImage, Camera, CameraModel, DEFAULT_SHUTTER, Hole, Lens, METRES_PER_UNIT, Overlay,
     PRESETS, VFOV_DEGREES, View,
 };
-use glam::Vec3;
+use glam::DVec3;
 use serde::Deserialize;
 use std::path::Path;
 use toml::Spanned;
@@ -58,7 +58,7 @@ fn unit() -> f64 {
 }
 
 fn upwards() -> Vector {
-    Vector(Vec3::Y)
+    Vector(DVec3::Y)
 }
 
 /// What the camera's table says.

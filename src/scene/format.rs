@@ -7,7 +7,7 @@ use super::material_format::{LightColor, MaterialList, MatteTable, MirrorTable, 
 use super::mesh::{Mesh, Placement};
 use super::number::{Count, Extent, NonNegative, Positive, Rgb, Vector};
 use super::{Aabb, Background, Light, LightKind, Plane, Scene, Shaded, Sphere, Triangle, View};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use serde::Deserialize;
 use std::path::Path;
 use toml::Spanned;
@@ -145,7 +145,7 @@ fn one() -> Positive {
 }
 
 fn zero() -> Vector {
-    Vector(Vec3::ZERO)
+    Vector(DVec3::ZERO)
 }
 
 fn yes() -> bool {
@@ -193,7 +193,7 @@ impl SceneFile {
         for table in &self.sphere {
             let shape = Sphere { center: table.center.0, radius: table.radius.f32() };
             let material = list.find(&table.material)?;
-            scene.spheres.push(Shaded { shape, material, velocity: table.velocity.0 });
+            scene.spheres.push(Shaded { shape, material, velocity: table.velocity.f32() });
         }
         for table in &self.boxes {
             let shape = Aabb { lower: table.lower.0, upper: table.upper.get_ref().0 };
@@ -201,17 +201,17 @@ impl SceneFile {
                 return Err(fault(&table.upper, "upper must be greater than lower on every axis"));
             }
             let material = list.find(&table.material)?;
-            scene.boxes.push(Shaded { shape, material, velocity: table.velocity.0 });
+            scene.boxes.push(Shaded { shape, material, velocity: table.velocity.f32() });
         }
         for table in &self.triangle {
             let vertices = [0, 1, 2].map(|corner| table.vertices.get_ref()[corner].0);
             let [a, b, c] = vertices;
-            if (b - a).cross(c - a) == Vec3::ZERO {
+            if (b - a).cross(c - a) == DVec3::ZERO {
                 return Err(fault(&table.vertices, "the three vertices lie on one line"));
             }
             let material = list.find(&table.material)?;
             let shape = Triangle { vertices, normals: None };
-            scene.triangles.push(Shaded { shape, material, velocity: table.velocity.0 });
+            scene.triangles.push(Shaded { shape, material, velocity: table.velocity.f32() });
         }
         for table in &self.plane {
             let shape = Plane { point: table.point.0, normal: nonzero(&table.normal)? };
@@ -252,9 +252,8 @@ impl SceneFile {
 impl MeshTable {
     fn add_to(&self, scene: &mut Scene, folder: &Path, material: Option<u32>) -> crate::error::Result<()> {
         let mesh = Mesh::read(&folder.join(self.file.get_ref()))?;
-        let (angles, position) = (self.rotate_degrees.0.as_dvec3(), self.position.0.as_dvec3());
-        let placement = Placement::new(self.scale.f64(), angles, position);
-        mesh.add_to(scene, &placement, material, self.velocity.0)
+        let placement = Placement::new(self.scale.f64(), self.rotate_degrees.0, self.position.0);
+        mesh.add_to(scene, &placement, material, self.velocity.f32())
     }
 }
 
@@ -271,7 +270,7 @@ fn background(table: Option<&Spanned<BackgroundTable>>) -> Result<Background, Fa
 }
 
 fn nonzero(vector: &Spanned<Vector>) -> Result<Vec3, Fault> {
-    match vector.get_ref().0 {
+    match vector.get_ref().f32() {
         Vec3::ZERO => Err(fault(vector, "this vector must not be zero")),
         other => Ok(other),
     }

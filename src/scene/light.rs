@@ -1,6 +1,6 @@
 //! Lights and background. Radiance is linear r, g, b.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// A light without extent: Suffern, chapter 14. It does not weaken with distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,7 +17,7 @@ pub struct Light {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LightKind {
     /// From a point.
-    Point(Vec3),
+    Point(DVec3),
     /// Along parallel lines. The vector points to the light and has any length but zero.
     Directional(Vec3),
 }

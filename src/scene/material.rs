@@ -26,9 +26,8 @@ pub struct Material {
     pub emission: Vec3,
 }
 
-/// A 3D checker: [`Material::color`] where
-/// `floor((x - 1.87e-4) / size) + floor((y - 1.87e-4) / size) + floor((z - 1.87e-4) / size)` is
-/// even, this colour where it is odd.
+/// A 3D checker: [`Material::color`] where `floor(x / size) + floor(y / size) + floor(z / size)` is even, this
+/// colour where it is odd. A surface on the boundary of two layers of cells belongs to the lower one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Checker {
     /// Edge of a cell, in scene units.

@@ -104,10 +104,10 @@ impl Mesh {
         velocity: Vec3,
     ) -> Result<()> {
         let fail = |message: String| Err(self.fault(message));
-        let positions: Vec<Vec3> =
-            self.obj.positions.iter().map(|position| placement.apply(*position).as_vec3()).collect();
+        let positions: Vec<DVec3> =
+            self.obj.positions.iter().map(|position| placement.apply(*position)).collect();
         // Also false for a NaN.
-        let inside = |position: &Vec3| position.abs().max_element() <= MAX_LENGTH;
+        let inside = |position: &DVec3| position.abs().max_element() <= f64::from(MAX_LENGTH);
         if !positions.iter().all(inside) {
             return fail(format!(
                 "it reaches beyond {MAX_LENGTH:e}, where it is put; give it a smaller scale"
@@ -127,7 +127,7 @@ impl Mesh {
         let mut own_normals: Vec<Option<[Vec3; 3]>> =
             faces.iter().map(|face| self.file_normals(face, placement)).collect();
         if own_normals.iter().any(Option::is_none) {
-            let corners: Vec<[Vec3; 3]> = faces.iter().map(|face| vertices(face)).collect();
+            let corners: Vec<[DVec3; 3]> = faces.iter().map(|face| vertices(face)).collect();
             let computed = crease_normals(&corners);
             for (own, computed) in own_normals.iter_mut().zip(computed) {
                 own.get_or_insert(computed);
@@ -173,19 +173,19 @@ impl Mesh {
 }
 
 /// Whether the normal of a triangle can be made a unit vector, in f32 too.
-fn has_area([a, b, c]: [Vec3; 3]) -> bool {
-    (b - a).cross(c - a).length_squared() >= f32::MIN_POSITIVE
+fn has_area([a, b, c]: [DVec3; 3]) -> bool {
+    (b - a).cross(c - a).length_squared() >= f64::from(f32::MIN_POSITIVE)
 }
 
 /// Unit normals for triangles without: at each corner the mean over the triangles around its
 /// position, by area, of those within the crease angle of this one.
-fn crease_normals(triangles: &[[Vec3; 3]]) -> Vec<[Vec3; 3]> {
+fn crease_normals(triangles: &[[DVec3; 3]]) -> Vec<[Vec3; 3]> {
     let normals: Vec<(Vec3, f32)> = triangles
         .iter()
         .map(|[a, b, c]| {
             let across = (b - a).cross(c - a);
             let area = across.length();
-            (across / area, area)
+            ((across / area).as_vec3(), area as f32)
         })
         .collect();
     let vertex_of_corner = merge(triangles.as_flattened());
@@ -217,11 +217,11 @@ fn crease_normals(triangles: &[[Vec3; 3]]) -> Vec<[Vec3; 3]> {
 }
 
 /// A number from 0 for each position, the same for equal ones: files repeat positions along seams.
-fn merge(positions: &[Vec3]) -> Vec<u32> {
+fn merge(positions: &[DVec3]) -> Vec<u32> {
     let mut numbers = HashMap::with_capacity(positions.len() / 4);
-    let number = |position: &Vec3| {
+    let number = |position: &DVec3| {
         // -0 and 0 are one place.
-        let key = (*position + Vec3::ZERO).to_array().map(f32::to_bits);
+        let key = (*position + DVec3::ZERO).to_array().map(f64::to_bits);
         let next = u32::try_from(numbers.len()).unwrap_or(u32::MAX);
         *numbers.entry(key).or_insert(next)
     };

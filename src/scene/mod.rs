@@ -11,6 +11,7 @@ mod light;
 mod material;
 mod material_format;
 mod mesh;
+mod middle;
 mod number;
 mod obj;
 mod optics;
@@ -31,7 +32,7 @@ pub use preset::{PRESETS, Preset};
 pub use shape::{Aabb, Plane, Shaded, Sphere, Triangle};
 pub use view::{Overlay, View};
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
 /// The largest width and height of a picture, in pixels.
@@ -117,12 +118,30 @@ impl Scene {
 
 /// A loaded scene, shared. Two are equal when they are the same loading, whatever they hold.
 #[derive(Debug, Clone)]
-pub struct SceneRef(Arc<Scene>);
+pub struct SceneRef(Arc<Shared>);
+
+#[derive(Debug)]
+struct Shared {
+    scene: Scene,
+    middle: DVec3,
+}
 
 impl SceneRef {
     /// Shares a scene.
     pub fn new(scene: Scene) -> Self {
-        Self(Arc::new(scene))
+        let middle = middle::of(&scene);
+        Self(Arc::new(Shared { scene, middle }))
+    }
+
+    /// The origin of the coordinates that a device computes with. It lies near the middle of the scene, for
+    /// the f32 of a device keep few digits of what is far from their origin.
+    pub fn middle(&self) -> DVec3 {
+        self.0.middle
+    }
+
+    /// A point in a device's coordinates.
+    pub fn on_device(&self, point: DVec3) -> Vec3 {
+        (point - self.middle()).as_vec3()
     }
 }
 
@@ -136,6 +155,6 @@ impl std::ops::Deref for SceneRef {
     type Target = Scene;
 
     fn deref(&self) -> &Scene {
-        &self.0
+        &self.0.scene
     }
 }

@@ -1,7 +1,7 @@
 //! Numbers of the scene file, checked as they are read, so that an error names their line.
 
 use super::{MAX_BOUNCES, MAX_EXTENT, MAX_LENGTH, MIN_LENGTH};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use serde::Deserialize;
 
 #[derive(Deserialize)]
@@ -14,7 +14,7 @@ pub(super) struct NonNegative(pub(super) f32);
 
 #[derive(Deserialize)]
 #[serde(try_from = "[f64; 3]")]
-pub(super) struct Vector(pub(super) Vec3);
+pub(super) struct Vector(pub(super) DVec3);
 
 #[derive(Deserialize)]
 #[serde(try_from = "[NonNegative; 3]")]
@@ -69,9 +69,15 @@ impl TryFrom<[f64; 3]> for Vector {
 
     fn try_from(value: [f64; 3]) -> Result<Self, String> {
         match value.iter().find(|value| !(-LARGEST..=LARGEST).contains(*value)) {
-            None => Ok(Self(Vec3::from_array(value.map(|value| value as f32)))),
+            None => Ok(Self(DVec3::from_array(value))),
             Some(value) => Err(format!("{value} must be from -{LARGEST:e} to {LARGEST:e}")),
         }
+    }
+}
+
+impl Vector {
+    pub(super) fn f32(&self) -> Vec3 {
+        self.0.as_vec3()
     }
 }
 

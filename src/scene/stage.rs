@@ -105,7 +105,7 @@ pub(super) fn around(mesh: &Mesh, name: &str) -> Result<(Scene, String)> {
         spheres: Vec::new(),
         boxes: Vec::new(),
         triangles: Vec::new(),
-        planes: vec![Shaded::still(Plane { point: Vec3::Y * ground.height as f32, normal: Vec3::Y }, 0)],
+        planes: vec![Shaded::still(Plane { point: DVec3::Y * ground.height, normal: Vec3::Y }, 0)],
     };
     mesh.add_to(&mut scene, &placement, None, Vec3::ZERO)?;
     scene.lens = lens_for(&scene);
@@ -117,9 +117,10 @@ pub(super) fn around(mesh: &Mesh, name: &str) -> Result<(Scene, String)> {
     Ok((scene, text))
 }
 
-/// The text of a scene file of it. There the mesh is placed in f32, and so may lie a rounding away.
+/// The text of a scene file of it.
 fn scene_file(scene: &Scene, ground: &Ground) -> String {
     let numbers = |vector: Vec3| format!("[{}, {}, {}]", vector.x, vector.y, vector.z);
+    let place = |point: DVec3| format!("[{}, {}, {}]", point.x, point.y, point.z);
     let (camera, floor) = (&scene.camera, &scene.materials[0]);
     let mut text = format!(
         "size = [{}, {}]\nmax_bounces = {}\n\n[camera]\neye = {}\nlook_at = {}\nvfov_degrees = {:?}\n\
@@ -128,8 +129,8 @@ fn scene_file(scene: &Scene, ground: &Ground) -> String {
         scene.size[0],
         scene.size[1],
         scene.max_bounces,
-        numbers(camera.eye),
-        numbers(camera.look_at),
+        place(camera.eye),
+        place(camera.look_at),
         camera.vfov_degrees(),
         camera.metres_per_unit,
         scene.lens.diameter,
@@ -157,9 +158,9 @@ fn scene_file(scene: &Scene, ground: &Ground) -> String {
         numbers(floor.color),
         numbers(odd),
         ground.square as f32,
-        ground.height as f32,
+        ground.height,
         toml_edit::value(&scene.name),
-        numbers(ground.position.as_vec3()),
+        place(ground.position),
     );
     text
 }
@@ -167,12 +168,15 @@ fn scene_file(scene: &Scene, ground: &Ground) -> String {
 /// Looks at a box of this centre and half extent from where all its corners are in the picture.
 fn camera(center: DVec3, half: DVec3) -> Camera {
     let to_eye = TO_EYE.normalize();
-    let toward = |distance: f64| Camera {
-        eye: (center + distance * to_eye).as_vec3(),
-        look_at: center.as_vec3(),
-        up: Vec3::Y,
-        vfov_radians: VFOV_DEGREES.to_radians(),
-        metres_per_unit: 1.0,
+    let toward = |distance: f64| {
+        let camera = Camera {
+            eye: center + distance * to_eye,
+            look_at: center,
+            up: DVec3::Y,
+            vfov_radians: VFOV_DEGREES.to_radians(),
+            metres_per_unit: 1.0,
+        };
+        camera.with_few_digits()
     };
     let diagonal = 2.0 * half.length();
     let frame = toward(diagonal).frame();
@@ -192,7 +196,7 @@ fn camera(center: DVec3, half: DVec3) -> Camera {
 fn lens_for(scene: &Scene) -> Lens {
     let frame = scene.camera.frame();
     let vertices = scene.triangles.iter().flat_map(|triangle| triangle.shape.vertices);
-    let depths = vertices.map(|vertex| frame.axial_depth(scene.camera.eye, vertex.as_dvec3()));
+    let depths = vertices.map(|vertex| frame.axial_depth(scene.camera.eye, vertex));
     let (near, far) =
         depths.fold((f64::INFINITY, 0.0), |(near, far): (f64, f64), depth| (near.min(depth), far.max(depth)));
     // The circle of confusion D (far - near) / (far near) k, and k = height / 2 / tan(vfov / 2).

@@ -3,7 +3,7 @@
 
 use super::{Sampler, Settings};
 use crate::scene::{CameraModel, Overlay};
-use glam::Vec3;
+use glam::DVec3;
 
 impl Settings {
     /// What follows `thinlens render` to get this picture again, but for where to: the scene as it was named,
@@ -87,7 +87,7 @@ impl Arguments {
         }
     }
 
-    fn vector(&mut self, name: &str, value: Vec3, of_scene: Vec3) {
+    fn vector(&mut self, name: &str, value: DVec3, of_scene: DVec3) {
         if value != of_scene {
             self.push(name, format!("{},{},{}", value.x, value.y, value.z));
         }

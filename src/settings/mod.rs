@@ -235,7 +235,7 @@ impl Settings {
         let camera = &self.estimator.camera;
         for (name, vector) in [("eye", camera.eye), ("look-at", camera.look_at), ("up", camera.up)] {
             for part in vector.to_array() {
-                in_range(name, part, -MAX_LENGTH, MAX_LENGTH)?;
+                in_range(name, part, -f64::from(MAX_LENGTH), f64::from(MAX_LENGTH))?;
             }
         }
         in_range("vfov", camera.vfov_radians.to_degrees(), *VFOV_DEGREES.start(), *VFOV_DEGREES.end())?;

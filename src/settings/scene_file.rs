@@ -4,7 +4,7 @@ use super::arguments::name_of;
 use super::{MAX_EXPOSURE_STOPS, Settings, in_range};
 use crate::error::{Error, Result};
 use crate::scene::{self, CameraModel, Loaded, Overlay, Scene};
-use glam::Vec3;
+use glam::DVec3;
 use std::path::{Path, PathBuf};
 use toml_edit::{Array, DocumentMut, Item, Table, TableLike, Value, value};
 
@@ -134,9 +134,9 @@ impl Keys<'_> {
         self.change(key, is, was, digits);
     }
 
-    fn vector(&mut self, key: &str, is: Vec3, was: Vec3) {
+    fn vector(&mut self, key: &str, is: DVec3, was: DVec3) {
         if is != was {
-            self.0.insert(key, list(is.to_array().map(|part| digits(part).into())));
+            self.0.insert(key, list(is.to_array().map(Value::from)));
         }
     }
 }

@@ -167,7 +167,7 @@ pub fn circle_of_confusion(diameter: f64, focal_distance: f64, z: f64, k: f64) -
 pub fn seen(estimator: &Estimator, pixel: [u32; 2], offset: [f64; 2]) -> Option<(f64, &str)> {
     let ray = Reference::new(estimator).trace(pixel, offset, [0.0; 2], 0.0).ray;
     let hit = intersect::intersect(&estimator.scene, ray, 0.0)?;
-    let axis = (estimator.camera.look_at - estimator.camera.eye).as_dvec3().normalize();
+    let axis = (estimator.camera.look_at - estimator.camera.eye).normalize();
     Some((hit.distance * ray.direction.dot(axis), &estimator.scene.material_names[hit.material as usize]))
 }
 

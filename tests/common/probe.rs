@@ -5,7 +5,7 @@ use bytemuck::{Pod, Zeroable};
 use std::sync::Arc;
 use thinlens::gpu_types::{SceneData, sampler_constant};
 use thinlens::passes::{BlueNoiseTile, SceneBuffers};
-use thinlens::scene::Scene;
+use thinlens::scene::SceneRef;
 use thinlens::settings::Sampler;
 use thinlens::vulkan::{Binding, BindingSet, Buffer, Commands, ComputePipeline, Residence};
 
@@ -16,7 +16,7 @@ pub const STEP: f64 = 1.0 / 16_777_216.0;
 pub fn probe<In: Pod, Out: Pod>(
     gpu: &Gpu,
     name: &'static str,
-    scene: Option<&Scene>,
+    scene: Option<&SceneRef>,
     push: &[u8],
     inputs: &[In],
 ) -> Vec<Out> {
@@ -28,7 +28,7 @@ pub fn probe_as<In: Pod, Out: Pod>(
     gpu: &Gpu,
     name: &'static str,
     sampler: Sampler,
-    scene: Option<&Scene>,
+    scene: Option<&SceneRef>,
     push: &[u8],
     inputs: &[In],
 ) -> Vec<Out> {

@@ -32,7 +32,9 @@ void main() {
         Ray ray = Ray(given.origin, given.direction);
         bool given_up = false;
         Hit hit = intersect_scene(ray, given_up);
-        vec3 normal = surface_normal(hit, ray.origin + hit.distance * ray.direction);
+        vec3 position = ray.origin + hit.distance * ray.direction;
+        float error;
+        vec3 normal = find_surface(hit, position, error);
         outputs[i] = Out(normal, hit.distance, hit.material, uint(occluded(ray, given.limit, given_up)));
     }
 }

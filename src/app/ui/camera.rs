@@ -2,22 +2,22 @@
 
 use super::widgets::{Layout, named, note_item, tooltip};
 use crate::scene::{Camera, MAX_LENGTH, VFOV_DEGREES};
-use glam::Vec3;
+use glam::DVec3;
 use imgui::{Drag, SliderFlags, Ui};
 
 /// Edits the camera. Says whether the scene's own is wanted back.
 pub(super) fn edit(ui: &Ui, camera: &mut Camera, layout: &mut Layout) -> bool {
     let speed = 0.002 * camera.eye.distance(camera.look_at);
-    let vector = |id: String, vector: &mut Vec3| {
+    let vector = |id: String, vector: &mut DVec3| {
         let mut parts = vector.to_array();
         let changed = Drag::new(id)
-            .range(-MAX_LENGTH, MAX_LENGTH)
-            .speed(speed)
+            .range(-f64::from(MAX_LENGTH), f64::from(MAX_LENGTH))
+            .speed(speed as f32)
             .display_format("%.4g")
             .flags(SliderFlags::NO_ROUND_TO_FORMAT | SliderFlags::ALWAYS_CLAMP)
             .build_array(ui, &mut parts);
         if changed {
-            *vector = Vec3::from_array(parts);
+            *vector = DVec3::from_array(parts);
         }
     };
     let before = *camera;

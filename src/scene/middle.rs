@@ -1,0 +1,43 @@
+//! Where the middle of a scene is.
+
+use super::{Scene, Sphere};
+use glam::DVec3;
+
+/// Coordinates this many times as large as the scene lose three bits of their f32, and stay as they are.
+const LARGEST_SHARE: f64 = 8.0;
+
+/// A point near the middle of the shapes, from which their coordinates are about as small as their distances
+/// from each other. It is zero where they are so already, and rounded, so that numbers of few digits keep few.
+///
+/// The middle is the median of the shapes' centres, so that few that are huge or far away, such as a sky or a
+/// sun, do not move it. Without any but planes, it is where the camera is.
+pub(super) fn of(scene: &Scene) -> DVec3 {
+    let spheres = scene.spheres.iter().map(|of| {
+        let Sphere { center, radius } = of.shape;
+        [center - f64::from(radius), center + f64::from(radius)]
+    });
+    let boxes = scene.boxes.iter().map(|of| [of.shape.lower, of.shape.upper]);
+    let triangles = scene.triangles.iter().map(|of| {
+        let [a, b, c] = of.shape.vertices;
+        [a.min(b).min(c), a.max(b).max(c)]
+    });
+    let bounds: Vec<[DVec3; 2]> = spheres.chain(boxes).chain(triangles).collect();
+    let (middle, size) = if bounds.is_empty() {
+        (scene.camera.eye, f64::from(scene.lens.focal_distance))
+    } else {
+        let coordinate = |axis| median(bounds.iter().map(|[lower, upper]| 0.5 * (lower[axis] + upper[axis])));
+        let middle = DVec3::new(coordinate(0), coordinate(1), coordinate(2));
+        let farthest =
+            |[lower, upper]: &[DVec3; 2]| (middle - lower).abs().max((upper - middle).abs()).max_element();
+        (middle, median(bounds.iter().map(farthest)))
+    };
+    let step = (LARGEST_SHARE * size).log2().ceil().exp2();
+    (middle / step).round() * step
+}
+
+/// The median of some numbers, at least one.
+fn median(numbers: impl Iterator<Item = f64>) -> f64 {
+    let mut numbers: Vec<f64> = numbers.collect();
+    let half = numbers.len() / 2;
+    *numbers.select_nth_unstable_by(half, f64::total_cmp).1
+}
