@@ -314,3 +314,43 @@ fn what_is_no_aperture_is_refused() {
         assert!(outcome.stderr.contains(message), "{arguments:?}: {}", outcome.stderr);
     }
 }
+
+/// Catches brightness that goes with the diameter alone where the shape leaves less open, while it is not locked: by
+/// the areas of regular polygons, ovals and images.
+#[test]
+fn unlocked_brightness_goes_with_the_area_of_the_opening() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("half.png");
+    // Two by four pixels, of which half are white: as open as half of half a square.
+    let mut encoder = png::Encoder::new(std::fs::File::create(&file).expect("a file"), 2, 4);
+    encoder.set_color(png::ColorType::Grayscale);
+    let mut writer = encoder.write_header().expect("a header");
+    writer.write_image_data(&[255, 0, 255, 0, 0, 255, 0, 255]).expect("pixels");
+    writer.finish().expect("a picture");
+    let image = Some(ApertureImage::read(&file).expect("an image"));
+
+    let polygon = |blades: f64| 0.5 * blades * (2.0 * PI / blades).sin() / PI;
+    let plain = Aperture::default();
+    let cases = [
+        (plain.clone(), 1.0),
+        (Aperture { blades: 3, ..plain.clone() }, polygon(3.0)),
+        (Aperture { blades: 6, rotation_degrees: 20.0, ..plain.clone() }, polygon(6.0)),
+        (Aperture { blades: 6, roundness: 1.0, ..plain.clone() }, 1.0),
+        (Aperture { blades: 5, roundness: 0.5, ..plain.clone() }, 0.5 * (1.0 + polygon(5.0))),
+        (Aperture { anamorphic: 2.0, ..plain.clone() }, 0.5),
+        (Aperture { anamorphic: 0.25, blades: 8, ..plain.clone() }, 0.25 * polygon(8.0)),
+        (Aperture { image, ..plain }, 0.25 * 4.0 / PI),
+    ];
+    for (aperture, expected) in cases {
+        let mut settings = settings_of(EVERYTHING, [64, 48], 8);
+        settings.estimator.aperture = aperture;
+        assert_eq!(settings.exposure(), 1.0, "it is locked");
+        settings.view.exposure_lock = false;
+        let got = f64::from(settings.exposure());
+        assert!(
+            (got / expected - 1.0).abs() < 1e-5,
+            "{:?}: {got}, not {expected}",
+            settings.estimator.aperture
+        );
+    }
+}

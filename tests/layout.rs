@@ -18,15 +18,26 @@ fn twins() -> Vec<Twin> {
     vec![
         twin!("Sphere", Sphere, [center, radius]),
         twin!("Box", Box, [lower, upper]),
-        twin!("Triangle", Triangle, [vertex, edge1, edge2]),
+        twin!("Triangle", Triangle, [vertex, offset, edge1, size, edge2]),
         twin!("Plane", Plane, [normal, offset]),
         twin!(
             "Material",
             Material,
-            [color, ka, odd_color, kd, reflectance, ks, emission, exponent, inverse_checker_size]
+            [
+                color,
+                ka,
+                odd_color,
+                kd,
+                reflectance,
+                ks,
+                emission,
+                exponent,
+                checker_phase,
+                inverse_checker_size
+            ]
         ),
         twin!("Light", Light, [radiance, is_directional, position_or_direction]),
-        twin!("Environment", Environment, [horizon, zenith, ambient]),
+        twin!("Environment", Environment, [horizon, zenith, ambient, reach]),
         twin!("Counters", Counters, [rays, rejected_samples, listed_samples]),
         twin!(
             "Camera",

@@ -247,7 +247,7 @@ fn material(material: &scene::Material, origin: DVec3) -> Material {
     let checker = material.checker.as_ref();
     // The checker is the same again two cells farther along each axis.
     let phase = |checker: &scene::Checker| {
-        let period = 2.0 * f64::from(checker.size);
+        let period = 2.0 * checker.size;
         floats(origin.map(|coordinate| coordinate.rem_euclid(period)).as_vec3())
     };
     Material {
@@ -260,7 +260,7 @@ fn material(material: &scene::Material, origin: DVec3) -> Material {
         emission: floats(material.emission),
         exponent: float(material.exponent),
         checker_phase: checker.map_or([0.0; 3], phase),
-        inverse_checker_size: checker.map_or(0.0, |checker| checker.size.recip()),
+        inverse_checker_size: checker.map_or(0.0, |checker| checker.size.recip() as f32),
     }
 }
 

@@ -8,7 +8,10 @@ use std::f64::consts::PI;
 
 /// How far a secondary ray must go before it hits, as a share of the coordinates at hand: the
 /// rounding error of f64 with room to spare.
-const LEAST_DISTANCE: f64 = 1e-9;
+const LEAST_DISTANCE: f64 = 1e-10;
+
+/// What f64 may lose of a point of a flat surface, as a share of the coordinates at hand.
+const ROUNDING: f64 = 1e-12;
 
 /// What arrives along `ray`, with at most `bounces` reflections.
 pub fn radiance(scene: &Scene, ray: Ray, bounces: u32) -> DVec3 {
@@ -53,7 +56,8 @@ fn emitted_and_reflected(
 ) -> DVec3 {
     let (to_viewer, time) = (-ray.direction, ray.time);
     // A shape takes its colours along.
-    let color = color(material, position - time * hit.velocity, least);
+    let rounding = ROUNDING * position.abs().max_element().max(hit.distance);
+    let color = color(material, position - time * hit.velocity, rounding);
     let mut sum = material.emission.as_dvec3() + f64::from(material.ka) * color * scene.ambient.as_dvec3();
     for light in &scene.lights {
         let (to_light, light_distance) = match light.kind {
@@ -89,7 +93,7 @@ fn emitted_and_reflected(
 /// A point on the boundary of two cells belongs to the lower one, also where it is `rounding` above.
 fn color(material: &Material, position: DVec3, rounding: f64) -> DVec3 {
     let odd = material.checker.as_ref().filter(|checker| {
-        let cells = ((position - rounding) / f64::from(checker.size)).floor();
+        let cells = ((position - rounding) / checker.size).floor();
         (cells.x + cells.y + cells.z).rem_euclid(2.0) == 1.0
     });
     odd.map_or(material.color, |checker| checker.odd_color).as_dvec3()

@@ -66,6 +66,26 @@ impl Aperture {
         [ratio.recip().min(1.0), ratio.min(1.0)]
     }
 
+    /// The share that is open of a disc of the same diameter, seen from the middle of the picture. The corners of
+    /// blades lie on the disc's rim, so three let in 41% of its light, five 76%, six 83% and eight 90%.
+    pub fn open_share(&self) -> f64 {
+        let [half_width, half_height] = self.stretch();
+        let of_disc = match &self.image {
+            Some(image) => {
+                let longer = f64::from(image.size[0].max(image.size[1]));
+                let light: f64 = image.cells.iter().copied().map(f64::from).sum();
+                light * (2.0 / longer).powi(2) / PI
+            }
+            None if self.blades > 0 => {
+                let (half, round) = (self.half_blade(), f64::from(self.roundness));
+                // Twice the area of half a blade's part: of a triangle, and of a sector of the disc.
+                ((1.0 - round) * half.sin() * half.cos() + round * half) / half
+            }
+            None => 1.0,
+        };
+        half_width * half_height * of_disc
+    }
+
     /// Half the angle that a blade takes.
     pub fn half_blade(&self) -> f64 {
         PI / f64::from(self.blades)

@@ -31,7 +31,7 @@ pub struct Material {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Checker {
     /// Edge of a cell, in scene units.
-    pub size: f32,
+    pub size: f64,
     /// The colour of odd cells.
     pub odd_color: Vec3,
 }

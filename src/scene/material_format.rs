@@ -79,7 +79,7 @@ impl From<ColorInput> for Color {
         match input {
             ColorInput::Plain(color) => Self(color.0, None),
             ColorInput::Checker(checker) => {
-                Self(checker.even.0, Some(Checker { size: checker.size.f32(), odd_color: checker.odd.0 }))
+                Self(checker.even.0, Some(Checker { size: checker.size.f64(), odd_color: checker.odd.0 }))
             }
         }
     }

@@ -36,7 +36,12 @@ pub const PRESETS: [Preset; 6] = [
         help: "A hole without size: everything is sharp, as in most computer graphics.",
         opening: Opening::Pinhole,
     },
-    fifty("50mm-f1.8", "50 mm f/1.8", "The normal lens that many photographers start with.", 1.8),
+    fifty(
+        "50mm-f1.8",
+        "50 mm f/1.8",
+        "The normal lens that many photographers start with. Focused near by it frames a little wider than a real one: as 45.5 mm would at half a metre.",
+        1.8,
+    ),
     fifty("50mm-f1.4", "50 mm f/1.4", "Its wider sister: lets in 1.7 times the light, and blurs more.", 1.4),
     fifty("50mm-f1.2", "50 mm f/1.2", "As wide as such lenses come: little more than a plane is sharp.", 1.2),
     Preset {

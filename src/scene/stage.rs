@@ -100,7 +100,7 @@ pub(super) fn around(mesh: &Mesh, name: &str) -> Result<(Scene, String)> {
         background: Background { horizon: HORIZON, zenith: ZENITH },
         ambient: AMBIENT,
         lights: LIGHTS.to_vec(),
-        materials: vec![floor(ground.square as f32)],
+        materials: vec![floor(ground.square)],
         material_names: vec!["ground".into()],
         spheres: Vec::new(),
         boxes: Vec::new(),
@@ -157,7 +157,7 @@ fn scene_file(scene: &Scene, ground: &Ground) -> String {
         floor.kd,
         numbers(floor.color),
         numbers(odd),
-        ground.square as f32,
+        ground.square,
         ground.height,
         toml_edit::value(&scene.name),
         place(ground.position),
@@ -205,7 +205,7 @@ fn lens_for(scene: &Scene) -> Lens {
     Lens { diameter: (ratio * near) as f32, focal_distance: near as f32 }
 }
 
-fn floor(square: f32) -> Material {
+fn floor(square: f64) -> Material {
     Material {
         color: Vec3::new(0.62, 0.6, 0.56),
         checker: Some(Checker { size: square, odd_color: Vec3::new(0.36, 0.37, 0.39) }),

@@ -208,8 +208,9 @@ impl Settings {
     }
 
     /// How often as bright the picture is shown: relative to the scene with its own lens, shutter and film.
-    /// The light that comes in goes with the time, and with the inverse square of the f-number, unless the
-    /// exposure is locked or there is a pinhole, through which none would.
+    /// The light that comes in goes with the time, and with the opening's area, unless the exposure is locked or
+    /// there is a pinhole, through which none would: with the inverse square of the f-number, and with the share
+    /// of a disc that the opening's shape leaves open.
     pub fn exposure(&self) -> f32 {
         let (estimator, scene) = (&self.estimator, &*self.estimator.scene);
         let mut light =
@@ -226,6 +227,9 @@ impl Settings {
             let [of_scene, now] = f_numbers;
             if of_scene.is_finite() && now.is_finite() {
                 light *= (of_scene / now).powi(2);
+            }
+            if estimator.model != CameraModel::Pinhole {
+                light *= estimator.aperture.open_share() / scene.aperture.open_share();
             }
         }
         self.view.exposure_stops.exp2() * light as f32

@@ -35,7 +35,7 @@ impl Panel {
         note_item(ui, "Keep the brightness", layout);
         tooltip(
             ui,
-            "On: the picture stays as bright while the aperture changes. Off: it darkens with each stop, as on film.",
+            "On: the picture stays as bright while the aperture changes. Off: it goes with the area of the opening, as on film: half with each stop, and less through blades than through a disc.",
         );
         named(
             ui,
