@@ -15,7 +15,7 @@ pub use statistics::Spread;
 
 use crate::error::{Error, Result};
 use crate::output::say;
-use crate::pending_file::PendingFile;
+use crate::pending_file::{PendingFile, keep_apart};
 use crate::renderer::Renderer;
 use crate::settings::{DeviceChoice, Sampler, Settings};
 use crate::vulkan::{Device, Instance};
@@ -66,6 +66,14 @@ pub fn run(job: &Job) -> Result<()> {
         return Err(Error::OutOfRange(format!("runs is {}, but must be from 1 to {MAX_RUNS}", job.runs)));
     }
     let table = job.json.as_deref() != Some(Path::new("-"));
+    for (path, picture) in job
+        .json
+        .iter()
+        .filter(|_| table)
+        .flat_map(|path| job.pictures.iter().map(move |picture| (path, picture)))
+    {
+        keep_apart(&[("--json", path)], &picture.files())?;
+    }
     let file = job.json.as_deref().filter(|_| table).map(PendingFile::create).transpose()?;
     let instance = Instance::new(job.device.validation, None)?;
     let device = Device::open(&instance, job.device.device.as_deref(), None)?;
