@@ -226,6 +226,25 @@ pub fn settings_of_arguments(arguments: &[OsString]) -> Result<Settings> {
     picture.settings.of_file()
 }
 
+/// The command line that the program was started with. Wrong use and help end the program here.
+pub fn parse() -> Cli {
+    Cli::try_parse().unwrap_or_else(|error| {
+        // What clap takes for options may be a file's name.
+        let is_file = |word: &OsString| {
+            let name = Path::new(word).extension().and_then(|extension| extension.to_str());
+            let dash = word.as_encoded_bytes().starts_with(b"-");
+            dash && name.is_some_and(|name| ["png", "exr", "toml", "obj", "json"].contains(&name))
+        };
+        let file = std::env::args_os().skip(1).find(is_file).filter(|_| error.use_stderr());
+        let _ = error.print();
+        if let Some(file) = file {
+            let file = file.to_string_lossy();
+            eprintln!("\n  tip: a file whose name begins with a dash is written ./{file}");
+        }
+        std::process::exit(error.exit_code());
+    })
+}
+
 impl DeviceArgs {
     /// As a plain value.
     pub fn choice(&self) -> DeviceChoice {

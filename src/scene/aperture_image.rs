@@ -10,6 +10,8 @@ use std::sync::Arc;
 
 /// Images are reduced to as many cells across at most.
 const MOST_CELLS: u32 = 256;
+/// What helps against damage.
+const ANEW: &str = "save the image anew as a PNG";
 /// The light of a pixel that is white and opaque: a sum of three colours of 255, times 255.
 const WHITE: u64 = 3 * 255 * 255;
 
@@ -61,12 +63,10 @@ impl ApertureImage {
         let kind = input_file::kind(&beginning);
         if kind != Some(input_file::PNG) {
             let is = kind.map_or_else(String::new, |kind| format!(": it is {kind}"));
-            return Err(fault(format!("it is not a PNG file{is}; save the image as a PNG")));
+            return Err(fault(format!("it is not a PNG file{is}; {ANEW}")));
         }
         let cells = input_file::guarded(|| decode(file));
-        let (size, cells) = cells
-            .unwrap_or_else(|| Err("its decoder gave it up".into()))
-            .map_err(|why| fault(format!("it cannot be used: {why}; save the image anew as a PNG")))?;
+        let (size, cells) = cells.unwrap_or_else(|| Err(format!("it is damaged; {ANEW}"))).map_err(fault)?;
         if cells.iter().all(|cell| *cell <= 0.0) {
             return Err(fault("it is black all over, so no light would come in".into()));
         }
@@ -76,7 +76,7 @@ impl ApertureImage {
 
 /// Columns and rows, and means over as many pixels as make at most [`MOST_CELLS`] cells across.
 fn decode(file: File) -> std::result::Result<([u32; 2], Vec<f32>), String> {
-    let damaged = |error: png::DecodingError| format!("it is damaged ({error})");
+    let damaged = |error: png::DecodingError| format!("it is damaged ({error}); {ANEW}");
     let mut decoder = png::Decoder::new(BufReader::new(file));
     decoder.set_transformations(png::Transformations::normalize_to_color8());
     decoder.set_ignore_text_chunk(true);
@@ -85,7 +85,8 @@ fn decode(file: File) -> std::result::Result<([u32; 2], Vec<f32>), String> {
     let ([width, height], interlaced) = ([header.width, header.height], header.interlaced);
     if width.max(height) > MAX_EXTENT {
         return Err(format!(
-            "it has {width} x {height} pixels, and may have {MAX_EXTENT} at most either way"
+            "it has {width} x {height} pixels, and may have {MAX_EXTENT} at most either way; make it \
+             smaller, for its light is averaged over {MOST_CELLS} x {MOST_CELLS} cells"
         ));
     }
     let mut reader = decoder.read_info().map_err(damaged)?;
@@ -95,7 +96,7 @@ fn decode(file: File) -> std::result::Result<([u32; 2], Vec<f32>), String> {
     // Whole numbers: their sum does not depend on the order, so that an interlaced image is the same one.
     let mut sums = vec![0_u64; size[0] as usize * size[1] as usize];
     for Row { y, first, stride } in rows([width, height], interlaced) {
-        let row = reader.next_row().map_err(damaged)?.ok_or("it is damaged (rows are missing)")?;
+        let row = reader.next_row().map_err(damaged)?.ok_or_else(|| format!("it is damaged; {ANEW}"))?;
         let cells = &mut sums[(y / step * size[0]) as usize..];
         for (x, pixel) in (first..).step_by(stride).zip(row.data().chunks_exact(channels)) {
             let level = |channel: usize| u64::from(pixel[channel]);

@@ -98,29 +98,38 @@ fn table_fault(
         (Form::Value, _) => None,
         (Form::One, _) if is_table => None,
         (Form::One, DeValue::Array(_)) => {
-            whole(format!("there is one {name}, and it is written {right}, with one pair of brackets"))
+            whole(format!("write {right}, with one pair of brackets, for there is one {name}"))
         }
         (Form::Many, DeValue::Array(list)) => {
             let other = list.iter().find(|element| !element.get_ref().is_table())?;
             Some((Some(other.span()), format!("each {name} is a table; write {right} above its keys")))
         }
         (Form::Many, DeValue::Table(_)) => {
-            whole(format!("there can be many of these, so it is written {right}, with two pairs of brackets"))
+            whole(format!("write {right}, with two pairs of brackets, for there can be many of them"))
         }
-        (Form::Named, DeValue::Table(named)) => named.iter().find_map(|(key, material)| {
-            let name_of_it = key.get_ref();
-            match material.get_ref() {
-                DeValue::Table(keys) => checker_fault(keys),
-                DeValue::Array(_) => Some((
-                    Some(key.span()),
-                    format!("write [{name}.{name_of_it}], with one pair of brackets: a name stands for one material"),
-                )),
-                _ => whole(format!("a material needs a name, by which shapes call it: write {right}")),
+        (Form::Named, DeValue::Table(named)) => {
+            let is_list = |value: &DeValue<'_>| {
+                value
+                    .as_array()
+                    .is_some_and(|list| list.first().is_some_and(|first| first.get_ref().is_table()))
+            };
+            if named.values().any(|value| !value.get_ref().is_table() && !is_list(value.get_ref())) {
+                return whole(format!("write {right}, for a material needs a name that shapes call it by"));
             }
-        }),
-        (Form::Named, DeValue::Array(_)) => whole(format!(
-            "a material's name stands in its brackets, of which there is one pair: write {right}"
-        )),
+            named.iter().find_map(|(key, material)| match material.get_ref() {
+                DeValue::Table(keys) => checker_fault(keys),
+                _ => Some((
+                    Some(key.span()),
+                    format!(
+                        "write [{name}.{}], with one pair of brackets, for a name stands for one material",
+                        key.get_ref()
+                    ),
+                )),
+            })
+        }
+        (Form::Named, DeValue::Array(_)) => {
+            whole(format!("write {right}, with one pair of brackets, in which the material's name stands"))
+        }
         _ => whole(format!("{name} is a table; write {right} above its keys")),
     }
 }
@@ -131,7 +140,7 @@ fn checker_fault(keys: &DeTable<'_>) -> Option<(Option<std::ops::Range<usize>>, 
     let list = color.get_ref().as_array()?;
     list.iter()
         .any(|part| part.get_ref().is_array())
-        .then(|| (Some(color.span()), format!("color is {COLOR_OR_CHECKER}")))
+        .then(|| (Some(color.span()), format!("color must be {COLOR_OR_CHECKER}")))
 }
 
 fn unknown_table(name: &str, value: &DeValue<'_>) -> String {
@@ -242,11 +251,11 @@ fn not_a_scene(text: &str, error: &toml::de::Error) -> Fault {
             .map_or_else(|| format!("it has: {}", known.join(", ")), |near| format!("did you mean {near}?"));
         // The place is the unknown key itself.
         format!("{} has no key {key}; {hint}", titled(&keys[..keys.len().saturating_sub(1)]))
-    } else if message.starts_with("invalid") {
+    } else if message.starts_with("invalid") || message.contains("overflow") {
         let key = keys.last().copied().unwrap_or_default();
         let table = keys.first().copied().filter(|_| keys.len() > 1);
         let found = value.map_or_else(String::new, |value| format!("; here is {}", kind_of(value)));
-        format!("{key} is {}{found}", value_of(table, key))
+        format!("{key} must be {}{found}", value_of(table, key))
     } else {
         message.replace('\n', "; ")
     };
@@ -284,14 +293,32 @@ fn not_toml(text: &str, error: &toml::de::Error) -> Fault {
     }
     let span = error.span().unwrap_or(0..0);
     let word = word_at(text, span.start);
-    let message = if message.starts_with("duplicate key") {
-        format!("'{word}' is here for the second time; leave one of them out")
-    } else if word.starts_with(|first: char| first.is_ascii_digit() || "+-.".contains(first)) {
-        format!("'{word}' is no number; one is written like 0.5, -2 or 1e-3")
-    } else if message.starts_with("string values must be quoted") {
-        format!("a name stands in quotes: \"{word}\"")
-    } else {
-        format!("this is no TOML: {}", message.replace('\n', "; "))
+    let numeric = |first: char| first.is_ascii_digit() || "+-.".contains(first);
+    let is_number = word.starts_with(numeric);
+    // The space between a date and a time is allowed, which hides a comma that is missing.
+    let two_numbers = is_number && next_word(text, word).starts_with(numeric);
+    let message = match message {
+        _ if message.starts_with("duplicate key") => {
+            format!("'{word}' is here for the second time; leave one of them out")
+        }
+        _ if message.starts_with("missing comma") || two_numbers => {
+            "here a comma is missing between two parts of a list, or the bracket at its end".into()
+        }
+        _ if message.starts_with("key with no value") || message.starts_with("missing assignment") => {
+            "a line is a table's header, or a key, = and its value, or a comment after #".into()
+        }
+        _ if message.starts_with("string values must be quoted") && word.is_empty() => {
+            "here a value is missing".into()
+        }
+        _ if is_number => format!("'{word}' is no number; one is written like 0.5, -2 or 1e-3"),
+        _ if message.starts_with("string values must be quoted") => {
+            format!("a name stands in quotes: \"{word}\"")
+        }
+        _ if message.starts_with("invalid unquoted key") => {
+            "a name with other signs than a-z, 0-9, - and _ stands in quotes, as in [matte.\"dark red\"]".into()
+        }
+        _ if message.starts_with("invalid boolean") => "write true or false, in small letters".into(),
+        other => format!("this is no TOML: {}", other.replace('\n', "; ")),
     };
     Fault { span, message }
 }
@@ -306,4 +333,12 @@ fn word_at(text: &str, at: usize) -> &str {
     let start = text[..at].rfind(ends).map_or(0, |end| end + 1);
     let end = text[at..].find(ends).map_or(text.len(), |end| at + end);
     text.get(start..end).unwrap_or_default()
+}
+
+/// What follows a word of a text after blanks, in the same line.
+fn next_word<'a>(text: &'a str, word: &'a str) -> &'a str {
+    let end = word.as_ptr() as usize + word.len() - text.as_ptr() as usize;
+    let rest = text.get(end..).unwrap_or_default();
+    let next = rest.trim_start_matches([' ', '\t']);
+    if next.len() < rest.len() { next } else { "" }
 }
