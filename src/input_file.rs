@@ -33,11 +33,15 @@ pub(crate) fn open(path: &Path) -> Result<File> {
 /// # Errors
 /// [`Error::Read`].
 pub(crate) fn read(path: &Path, most: u64) -> Result<Vec<u8>> {
+    let mut file = open(path)?;
     let mut bytes = Vec::new();
-    // One byte more than is allowed tells that there are too many.
-    let read = open(path)?.take(most + 1).read_to_end(&mut bytes);
-    read.map_err(|error| cannot_read(path, &error))?;
-    if bytes.len() as u64 > most {
+    let claimed = file.metadata().map_or(0, |is| is.len());
+    if claimed <= most {
+        // One byte more than is allowed tells that there are too many: a file may grow, or have no size.
+        let read = (&mut file).take(most + 1).read_to_end(&mut bytes);
+        read.map_err(|error| cannot_read(path, &error))?;
+    }
+    if claimed.max(bytes.len() as u64) > most {
         let reason = format!("it is larger than {} MiB, which is the most", most.div_ceil(1 << 20));
         return Err(Error::Read { path: path.to_path_buf(), reason });
     }

@@ -324,8 +324,13 @@ fn what_cannot_be_read_says_why() {
     fs::write(folder.join("mesh.toml"), scene).expect("a scene");
     let image = scene.replace("[[mesh]]\nfile = \"pipe.obj\"", "aperture_image = \"zero.png\"");
     fs::write(folder.join("image.toml"), image).expect("a scene");
+    for (name, size) in [("large.toml", 200 << 20), ("large.obj", 5 << 30)] {
+        fs::File::create(folder.join(name)).and_then(|file| file.set_len(size)).expect("a file of holes");
+    }
     for (arguments, part) in [
-        (&["none.toml"][..], "check its name"),
+        (&["large.toml"][..], "larger than 128 MiB"),
+        (&["large.obj"], "larger than 4096 MiB"),
+        (&["none.toml"], "check its name"),
         (&["none/a.toml"], "there is no folder none"),
         (&["link.toml"], "link to gone.toml, which does not exist"),
         (&["file/a.toml"], "no folder"),

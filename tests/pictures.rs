@@ -256,7 +256,8 @@ fn an_aperture_is_the_same_in_every_encoding() {
         let levels: Vec<u8> = (0..height).flat_map(|y| (0..width).map(move |x| level(x, y))).collect();
         let mut pixels = Vec::new();
         let mut encoder = png::Encoder::new(&mut pixels, width, height);
-        (encoder.set_color(ColorType::Rgba), encoder.set_depth(BitDepth::Eight));
+        encoder.set_color(ColorType::Rgba);
+        encoder.set_depth(BitDepth::Eight);
         let rgba: Vec<u8> = levels.iter().flat_map(|level| [*level, *level, *level, 255]).collect();
         encoder.write_header().expect("a header").write_image_data(&rgba).expect("pixels");
         let path = write(folder.path(), "rgba.png", &pixels);

@@ -66,15 +66,11 @@ pub fn run(job: &Job) -> Result<()> {
         return Err(Error::OutOfRange(format!("runs is {}, but must be from 1 to {MAX_RUNS}", job.runs)));
     }
     let table = job.json.as_deref() != Some(Path::new("-"));
-    for (path, picture) in job
-        .json
-        .iter()
-        .filter(|_| table)
-        .flat_map(|path| job.pictures.iter().map(move |picture| (path, picture)))
-    {
-        keep_apart(&[("--json", path)], &picture.files())?;
+    let output = job.json.as_deref().filter(|_| table);
+    for picture in &job.pictures {
+        keep_apart(output.map(|path| ("--json", path)).as_slice(), &picture.files())?;
     }
-    let file = job.json.as_deref().filter(|_| table).map(PendingFile::create).transpose()?;
+    let file = output.map(PendingFile::create).transpose()?;
     let instance = Instance::new(job.device.validation, None)?;
     let device = Device::open(&instance, job.device.device.as_deref(), None)?;
     device.keep_pipelines();

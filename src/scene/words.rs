@@ -292,11 +292,12 @@ fn not_toml(text: &str, error: &toml::de::Error) -> Fault {
         return Fault { span: at..at, message };
     }
     let span = error.span().unwrap_or(0..0);
-    let word = word_at(text, span.start);
+    let (end, word) = word_at(text, span.start);
     let numeric = |first: char| first.is_ascii_digit() || "+-.".contains(first);
     let is_number = word.starts_with(numeric);
     // The space between a date and a time is allowed, which hides a comma that is missing.
-    let two_numbers = is_number && next_word(text, word).starts_with(numeric);
+    let next = text[end..].trim_start_matches([' ', '\t']);
+    let two_numbers = is_number && next.len() < text.len() - end && next.starts_with(numeric);
     let message = match message {
         _ if message.starts_with("duplicate key") => {
             format!("'{word}' is here for the second time; leave one of them out")
@@ -315,7 +316,8 @@ fn not_toml(text: &str, error: &toml::de::Error) -> Fault {
             format!("a name stands in quotes: \"{word}\"")
         }
         _ if message.starts_with("invalid unquoted key") => {
-            "a name with other signs than a-z, 0-9, - and _ stands in quotes, as in [matte.\"dark red\"]".into()
+            "a name with other signs than a-z, 0-9, - and _ stands in quotes, as in [matte.\"dark red\"]"
+                .into()
         }
         _ if message.starts_with("invalid boolean") => "write true or false, in small letters".into(),
         other => format!("this is no TOML: {}", other.replace('\n', "; ")),
@@ -323,8 +325,8 @@ fn not_toml(text: &str, error: &toml::de::Error) -> Fault {
     Fault { span, message }
 }
 
-/// What stands there between blanks, commas and brackets.
-fn word_at(text: &str, at: usize) -> &str {
+/// Where the word ends that stands there between blanks, commas and brackets, and the word.
+fn word_at(text: &str, at: usize) -> (usize, &str) {
     let ends = |letter: char| letter.is_whitespace() || "[]{}=,#\"'".contains(letter);
     let mut at = at.min(text.len());
     while !text.is_char_boundary(at) {
@@ -332,13 +334,5 @@ fn word_at(text: &str, at: usize) -> &str {
     }
     let start = text[..at].rfind(ends).map_or(0, |end| end + 1);
     let end = text[at..].find(ends).map_or(text.len(), |end| at + end);
-    text.get(start..end).unwrap_or_default()
-}
-
-/// What follows a word of a text after blanks, in the same line.
-fn next_word<'a>(text: &'a str, word: &'a str) -> &'a str {
-    let end = word.as_ptr() as usize + word.len() - text.as_ptr() as usize;
-    let rest = text.get(end..).unwrap_or_default();
-    let next = rest.trim_start_matches([' ', '\t']);
-    if next.len() < rest.len() { next } else { "" }
+    (end, text.get(start..end).unwrap_or_default())
 }
