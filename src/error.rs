@@ -1,6 +1,7 @@
 //! Everything that can go wrong for a user, each with what to do about it.
 
-use std::path::PathBuf;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
 
 /// The crate's result.
 pub type Result<T, E = Error> = std::result::Result<T, E>;
@@ -78,21 +79,24 @@ pub enum Error {
         why: String,
     },
     /// A file cannot be read.
-    #[error("cannot read {}: {source}; check the path and its permissions", path.display())]
+    #[error("cannot read {}: {reason}", path.display())]
     Read {
         /// Which file.
         path: PathBuf,
-        /// Why.
-        source: std::io::Error,
+        /// Why, and what to do.
+        reason: String,
     },
     /// A file cannot be written.
-    #[error("cannot write {}: {reason}; check that the folder exists and is writable", path.display())]
+    #[error("cannot write {}: {reason}", path.display())]
     Write {
         /// Which file.
         path: PathBuf,
-        /// Why.
+        /// Why, and what to do.
         reason: String,
     },
+    /// Two things that are to be written are one file, or what is to be written is what it is made from.
+    #[error("{0}")]
+    SameFile(String),
     /// A scene file is wrong. Lines count from 1.
     #[error("{file}:{line}: {message}")]
     Scene {
@@ -160,10 +164,72 @@ impl Error {
             Self::UnknownScene { .. }
             | Self::UnknownFormat(_)
             | Self::OutOfRange(_)
+            | Self::SameFile(_)
             | Self::NothingToFocusOn { .. }
             | Self::NoOrigin { .. }
             | Self::UnknownDevice { .. } => 2,
             _ => 1,
         }
     }
+}
+
+/// Why a file cannot be read, and what to do about it.
+pub(crate) fn cannot_read(path: &Path, error: &std::io::Error) -> Error {
+    let reason = match error.kind() {
+        ErrorKind::NotFound => missing(path, "check its name, and the folder that it starts from"),
+        ErrorKind::PermissionDenied => {
+            "you may not read it; ask its owner, or permit it (chmod u+r, and u+x for its folders)".into()
+        }
+        _ => reason(error),
+    };
+    Error::Read { path: path.to_path_buf(), reason }
+}
+
+/// Likewise, for a file that cannot be written.
+pub(crate) fn cannot_write(path: &Path, error: &std::io::Error) -> Error {
+    let reason = match error.kind() {
+        ErrorKind::NotFound => missing(path, "make the folder first, or choose another place"),
+        ErrorKind::PermissionDenied => {
+            "you may not write there; choose another folder, or ask for the right to write in this one".into()
+        }
+        _ => reason(error),
+    };
+    Error::Write { path: path.to_path_buf(), reason }
+}
+
+/// What of a path is not there.
+fn missing(path: &Path, advice: &str) -> String {
+    if let Ok(target) = std::fs::read_link(path) {
+        return format!("it is a link to {}, which does not exist; make the link anew", target.display());
+    }
+    match path.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
+        Some(folder) => format!("there is no folder {}; {advice}", folder.display()),
+        None => format!("there is no such file; {advice}"),
+    }
+}
+
+/// What reading and writing have in common.
+fn reason(error: &std::io::Error) -> String {
+    let known = match error.kind() {
+        ErrorKind::IsADirectory => "it is a folder; name a file",
+        ErrorKind::NotADirectory => "a part of its path is a file and no folder; check the path",
+        ErrorKind::StorageFull => "the disk is full; free some space, or choose another disk",
+        ErrorKind::QuotaExceeded => {
+            "your share of the disk is used up; free some space, or choose another disk"
+        }
+        ErrorKind::FileTooLarge => {
+            "it would be larger than files may be here; raise the limit (ulimit -f), choose another disk, or a \
+             smaller --size"
+        }
+        ErrorKind::ReadOnlyFilesystem => "the disk is read-only; choose another one",
+        ErrorKind::InvalidFilename => "the system does not take this name; choose a shorter or plainer one",
+        ErrorKind::ResourceBusy | ErrorKind::ExecutableFileBusy => {
+            "another program uses it; close it there, or choose another name"
+        }
+        ErrorKind::OutOfMemory => "it does not fit in memory; close other programs, or use a smaller file",
+        ErrorKind::BrokenPipe => "whoever was to read it has ended; start that again",
+        // The system's own words are better than a guess.
+        _ => return error.to_string(),
+    };
+    known.into()
 }

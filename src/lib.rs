@@ -18,7 +18,8 @@
 //! - [`reference`](mod@reference) is the renderer again, in f64 on the CPU: the oracle that [`verify`] and the
 //!   tests hold the device against. It shares no code with the device's side.
 //! - [`vulkan`] wraps the driver and is the only unsafe code.
-//! - [`pending_file`] writes files that appear whole or not at all.
+//! - [`pending_file`] writes files that appear whole or not at all, `input_file` reads what others made, and
+//!   [`interrupt`] leaves nothing behind when a signal ends the program.
 //!
 //! The optics are those of K. Suffern, *Ray Tracing from the Ground Up*, chapter 10: a centre ray
 //! finds the point in focus, a primary ray from a point of the lens goes through it. See
@@ -29,6 +30,8 @@ pub mod bench;
 pub mod cli;
 pub mod error;
 pub mod gpu_types;
+mod input_file;
+pub mod interrupt;
 pub mod output;
 pub mod passes;
 pub mod pending_file;

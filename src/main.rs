@@ -1,14 +1,14 @@
 //! The command line: parse, choose window or file, print the error.
 
-use clap::Parser;
 use std::process::ExitCode;
-use thinlens::cli::{Cli, Command, RenderArgs, ViewArgs, settings_of_arguments};
+use thinlens::cli::{self, Command, RenderArgs, ViewArgs, settings_of_arguments};
 use thinlens::error::{Error, Result};
-use thinlens::{app, bench, output, verify};
+use thinlens::{app, bench, interrupt, output, verify};
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = cli::parse();
     env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("warn")).init();
+    interrupt::install();
     if let Err(error) = run(cli.command.unwrap_or_else(|| Command::View(ViewArgs::default()))) {
         eprintln!("thinlens: {error}");
         return ExitCode::from(error.exit_code());
@@ -26,6 +26,7 @@ fn run(command: Command) -> Result<()> {
             })?;
             output::render(&output::Job {
                 settings,
+                from,
                 autofocus,
                 output,
                 stats,

@@ -62,7 +62,8 @@ impl Agreement {
 
     /// How much brighter the device's picture is than the oracle's, all in all, as a share.
     pub fn brightness_difference(&self) -> f64 {
-        self.sums[0] / self.sums[1] - 1.0
+        // Two black pictures are equally bright.
+        if self.sums[0] == self.sums[1] { 0.0 } else { self.sums[0] / self.sums[1] - 1.0 }
     }
 
     /// Whether it is within bounds.

@@ -194,3 +194,13 @@ fn independent_samples_estimate_the_same_picture() {
     let agreement = shared.agree(&expected[0], ROUNDING);
     assert!(agreement.is_err(), "a shared pair is not seen: {agreement:?}");
 }
+
+/// Catches a proof that fails where there is nothing but black on both sides: no light over no light is no number.
+#[test]
+fn two_black_pictures_agree() {
+    let mut agreement = thinlens::verify::Agreement::default();
+    agreement.add(&[[0.0, 0.0, 0.0, 1.0]], &[[0.0, 0.0, 0.0, 1.0]]);
+    assert!(agreement.holds(), "{agreement:?}");
+    agreement.add(&[[1.0, 0.0, 0.0, 1.0]], &[[0.0, 0.0, 0.0, 1.0]]);
+    assert!(!agreement.holds(), "light where there is none agrees: {agreement:?}");
+}

@@ -93,7 +93,7 @@ fn samples_that_are_not_finite_are_said() {
     let run =
         run(folder.path(), &["render", "burning.toml", "-o", "out.png", "-q", "-n", "4", "-s", "32x24"]);
     assert_eq!(run.code, 0, "{}", run.stderr);
-    assert!(run.stderr.contains("of 3072 samples were not finite"), "{}", run.stderr);
+    assert!(run.stderr.contains("of 3072 samples are left out"), "{}", run.stderr);
 }
 
 /// Catches help that promises the defaults of another command.

@@ -262,7 +262,7 @@ fn a_saved_scene_has_the_settings_it_was_saved_with() {
             settings.view.exposure_stops -= excess.copysign(settings.exposure().log2());
             let file = folder.path().join("saved.toml");
             output::save_scene(&settings, &file).expect("a saved scene");
-            let saved = SceneRef::new(scene::load(&file.display().to_string()).expect("a scene"));
+            let saved = SceneRef::new(scene::load(&file).expect("a scene"));
             let mut again = Settings::of_scene(saved);
             let brightness = f64::from(again.exposure() / settings.exposure());
             assert!((brightness - 1.0).abs() < 1e-5, "{name} is {brightness} times as bright");
@@ -289,7 +289,7 @@ fn what_a_scene_file_says_is_what_counts() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = |name: &str| folder.path().join(name);
     let load = |name: &str| {
-        let scene = scene::load(&path(name).display().to_string()).expect("a scene");
+        let scene = scene::load(path(name)).expect("a scene");
         Settings::of_scene(SceneRef::new(scene))
     };
     std::fs::write(path("some.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 3 2\n").expect("a mesh");
@@ -392,7 +392,7 @@ fn names_with_spaces_quotes_and_umlauts_come_back() {
         let origin = Origin::read(&folder.join(&output)).expect("how it was made");
         assert_eq!(origin.arguments[0], name);
     }
-    let scene = scene::load(&folder.join(name).display().to_string()).expect("a scene");
+    let scene = scene::load(folder.join(name)).expect("a scene");
     let line = Settings::of_scene(SceneRef::new(scene)).command_line("a.png");
     let echoed = std::process::Command::new("sh").args(["-c", &format!("printf '%s\\n' {line}")]).output();
     let words = String::from_utf8(echoed.expect("a shell").stdout).expect("text");

@@ -4,20 +4,22 @@
 use std::path::Path;
 
 /// A module and what it may use of the crate, besides `error`.
-const ARROWS: [(&str, &[&str]); 14] = [
+const ARROWS: [(&str, &[&str]); 16] = [
     ("cli", &["settings", "scene"]),
-    ("app", &["renderer", "output", "settings", "scene", "vulkan"]),
+    ("app", &["renderer", "output", "settings", "scene", "vulkan", "pending_file"]),
     ("bench", &["renderer", "output", "settings", "vulkan", "pending_file"]),
-    ("output", &["renderer", "settings", "scene", "vulkan", "pending_file"]),
+    ("output", &["renderer", "settings", "scene", "vulkan", "pending_file", "input_file", "interrupt"]),
     ("renderer", &["passes", "gpu_types", "settings", "scene", "vulkan"]),
     ("passes", &["vulkan", "gpu_types"]),
     ("gpu_types", &["scene", "settings"]),
     ("verify", &["renderer", "reference", "settings", "vulkan"]),
     ("reference", &["scene", "settings"]),
     ("settings", &["scene"]),
-    ("scene", &[]),
+    ("scene", &["input_file"]),
     ("vulkan", &["pending_file"]),
-    ("pending_file", &[]),
+    ("pending_file", &["interrupt"]),
+    ("input_file", &[]),
+    ("interrupt", &[]),
     ("error", &[]),
 ];
 

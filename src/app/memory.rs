@@ -1,7 +1,10 @@
 //! What the viewer remembers from one time to the next.
 
+use crate::pending_file::PendingFile;
+use crate::settings::saved_names;
 use etcetera::BaseStrategy;
 use serde::{Deserialize, Serialize};
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 /// What there was when the viewer was closed last.
@@ -11,9 +14,11 @@ pub struct Memory {
     /// The window's size in physical pixels.
     pub size: Option<[u32; 2]>,
     /// The settings, as [`crate::settings::Settings::arguments`] gives them; none the first time.
-    pub arguments: Vec<String>,
+    #[serde(with = "saved_names")]
+    pub arguments: Vec<OsString>,
     /// Files that were opened, the latest first.
-    pub recent: Vec<String>,
+    #[serde(with = "saved_names")]
+    pub recent: Vec<PathBuf>,
     /// Whether the optics were shown.
     pub optics: bool,
 }
@@ -38,9 +43,10 @@ impl Memory {
         let Some(path) = file("viewer.json") else {
             return;
         };
-        let text = serde_json::to_string_pretty(self).expect("plain strings and numbers are JSON");
-        if let Err(error) = std::fs::write(&path, text) {
-            log::warn!("cannot write {}: {error}; the settings are not remembered", path.display());
+        let text = serde_json::to_string_pretty(self).expect("names and numbers are JSON");
+        let written = PendingFile::create(&path).and_then(|file| file.write(text.as_bytes()));
+        if let Err(error) = written {
+            log::warn!("{error}; the settings are not remembered");
         }
     }
 }

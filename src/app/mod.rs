@@ -2,6 +2,7 @@
 
 mod clipboard;
 pub mod diagram;
+mod display;
 mod focus;
 mod graphics;
 mod history;
@@ -15,10 +16,10 @@ pub use memory::Memory;
 
 use crate::error::{Error, Result};
 use crate::settings::{DeviceChoice, Settings};
-use winit::event_loop::EventLoop;
+use std::ffi::OsString;
 
 /// Settings from arguments, as [`Settings::arguments`] gives them.
-pub type Reopen = fn(&[String]) -> Result<Settings>;
+pub type Reopen = fn(&[OsString]) -> Result<Settings>;
 
 /// What the viewer starts with.
 #[derive(Debug, Clone)]
@@ -44,7 +45,7 @@ pub struct Options {
 /// # Errors
 /// [`Error::NoDisplay`] where no window can be opened at all; otherwise whatever ended the viewer.
 pub fn run(options: Options) -> Result<()> {
-    let event_loop = EventLoop::new().map_err(|error| Error::NoDisplay(reason(&error)))?;
+    let event_loop = display::event_loop().map_err(|error| Error::NoDisplay(reason(&error)))?;
     let mut viewer = window::Viewer::new(options);
     let ended = event_loop.run_app(&mut viewer);
     viewer.finish()?;

@@ -118,7 +118,7 @@ impl ApplicationHandler for Viewer {
             event => {
                 match event {
                     WindowEvent::Resized(_) => open.graphics.refit(),
-                    WindowEvent::DroppedFile(ref path) => open.panel.open(&path.display().to_string()),
+                    WindowEvent::DroppedFile(ref path) => open.panel.open(path),
                     WindowEvent::Occluded(occluded) => open.occluded = occluded,
                     _ => {}
                 }

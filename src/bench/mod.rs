@@ -15,7 +15,7 @@ pub use statistics::Spread;
 
 use crate::error::{Error, Result};
 use crate::output::say;
-use crate::pending_file::PendingFile;
+use crate::pending_file::{PendingFile, keep_apart};
 use crate::renderer::Renderer;
 use crate::settings::{DeviceChoice, Sampler, Settings};
 use crate::vulkan::{Device, Instance};
@@ -66,7 +66,11 @@ pub fn run(job: &Job) -> Result<()> {
         return Err(Error::OutOfRange(format!("runs is {}, but must be from 1 to {MAX_RUNS}", job.runs)));
     }
     let table = job.json.as_deref() != Some(Path::new("-"));
-    let file = job.json.as_deref().filter(|_| table).map(PendingFile::create).transpose()?;
+    let output = job.json.as_deref().filter(|_| table);
+    for picture in &job.pictures {
+        keep_apart(output.map(|path| ("--json", path)).as_slice(), &picture.files())?;
+    }
+    let file = output.map(PendingFile::create).transpose()?;
     let instance = Instance::new(job.device.validation, None)?;
     let device = Device::open(&instance, job.device.device.as_deref(), None)?;
     device.keep_pipelines();

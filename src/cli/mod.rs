@@ -7,7 +7,8 @@ use crate::scene::{self, BUILTINS, SceneRef};
 use crate::settings::{DEFAULT_SAMPLES, DeviceChoice, Place, Settings, Sweep};
 use clap::{Args, Parser, Subcommand};
 pub use settings::SettingsArgs;
-use std::path::PathBuf;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
 
 /// The lenses of a sweep, unless others are named: from clearly blurred to sharp.
 const SWEPT_F_NUMBERS: [f64; 4] = [2.8, 5.6, 11.0, 32.0];
@@ -176,7 +177,7 @@ pub struct VerifyArgs {
 #[derive(Debug, Args)]
 pub struct BenchArgs {
     /// Built-in scenes (see thinlens scenes), .toml or .obj files [default: every built-in one]
-    scenes: Vec<String>,
+    scenes: Vec<PathBuf>,
     /// Picture size in pixels; the error is measured at 320x240 at most
     #[arg(short, long, value_name = "WxH", value_parser = parse_size, default_value = "640x480")]
     size: [u32; 2],
@@ -209,8 +210,8 @@ pub struct DeviceArgs {
 ///
 /// # Errors
 /// [`crate::error::Error::OutOfRange`] for what is none, or of the scene.
-pub fn settings_of_arguments(arguments: &[String]) -> Result<Settings> {
-    /// Like [`RenderArgs`], but without anything that is not the picture's.
+pub fn settings_of_arguments(arguments: &[OsString]) -> Result<Settings> {
+    // Like `RenderArgs`, but without anything that is not the picture's. No doc comment: clap would show it.
     #[derive(Parser)]
     #[command(no_binary_name = true)]
     struct Picture {
@@ -223,6 +224,25 @@ pub fn settings_of_arguments(arguments: &[String]) -> Result<Settings> {
         Error::OutOfRange(format!("the saved settings cannot be used: {what}"))
     })?;
     picture.settings.of_file()
+}
+
+/// The command line that the program was started with. Wrong use and help end the program here.
+pub fn parse() -> Cli {
+    Cli::try_parse().unwrap_or_else(|error| {
+        // What clap takes for options may be a file's name.
+        let is_file = |word: &OsString| {
+            let name = Path::new(word).extension().and_then(|extension| extension.to_str());
+            let dash = word.as_encoded_bytes().starts_with(b"-");
+            dash && name.is_some_and(|name| ["png", "exr", "toml", "obj", "json"].contains(&name))
+        };
+        let file = std::env::args_os().skip(1).find(is_file).filter(|_| error.use_stderr());
+        let _ = error.print();
+        if let Some(file) = file {
+            let file = file.to_string_lossy();
+            eprintln!("\n  tip: a file whose name begins with a dash is written ./{file}");
+        }
+        std::process::exit(error.exit_code());
+    })
 }
 
 impl DeviceArgs {
@@ -253,7 +273,7 @@ impl BenchArgs {
     /// # Errors
     /// Of the scene, or [`crate::error::Error::OutOfRange`].
     pub fn pictures(&self) -> Result<Vec<Settings>> {
-        let picture = |name: &str| {
+        let picture = |name: &Path| {
             let mut settings = Settings::of_scene(SceneRef::new(scene::load(name)?));
             settings.estimator.size = self.size;
             settings.samples = self.samples;
@@ -261,7 +281,7 @@ impl BenchArgs {
             Ok(settings)
         };
         if self.scenes.is_empty() {
-            return BUILTINS.iter().map(|builtin| picture(builtin.name)).collect();
+            return BUILTINS.iter().map(|builtin| picture(builtin.name.as_ref())).collect();
         }
         self.scenes.iter().map(|name| picture(name)).collect()
     }

@@ -7,7 +7,8 @@ use crate::settings::{DEFAULT_SAMPLES, Sampler, Settings};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use glam::DVec3;
-use std::path::PathBuf;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
 
 /// Samples per pixel that the viewer goes for, unless another number is asked for.
 const DEFAULT_VIEW_SAMPLES: u32 = 256;
@@ -20,7 +21,7 @@ const PROOF_SAMPLES: u32 = 16;
 #[derive(Debug, Args, Default, PartialEq)]
 pub struct SettingsArgs {
     /// A built-in scene (see thinlens scenes), .toml or .obj file [default: version-4]
-    scene: Option<String>,
+    scene: Option<PathBuf>,
     /// Antialiasing points per pixel: more for less noise [default: 64, in the viewer 256]
     #[arg(short = 'n', long, value_name = "N", allow_negative_numbers = true)]
     samples: Option<u32>,
@@ -150,7 +151,7 @@ impl SettingsArgs {
     ///
     /// # Errors
     /// Of either, or of the scene.
-    pub fn of_picture(&self, arguments: &[String]) -> Result<Settings> {
+    pub fn of_picture(&self, arguments: &[OsString]) -> Result<Settings> {
         let mut settings = super::settings_of_arguments(arguments)?;
         self.apply(&mut settings)?;
         Ok(settings)
@@ -176,8 +177,8 @@ impl SettingsArgs {
     /// Of the scene, or [`crate::error::Error::OutOfRange`].
     pub fn of_proof(&self) -> Result<Vec<Settings>> {
         let named = self.scene.as_deref().map(|name| vec![name]);
-        let names = named.unwrap_or_else(|| BUILTINS.iter().map(|builtin| builtin.name).collect());
-        let proof = |name: &str| {
+        let names = named.unwrap_or_else(|| BUILTINS.iter().map(|builtin| Path::new(builtin.name)).collect());
+        let proof = |name: &Path| {
             let mut settings = self.resolve_scene(name, PROOF_SAMPLES)?;
             settings.estimator.size = self.size.unwrap_or(PROOF_SIZE);
             // The oracle has no noise to go by: it is held against single samples.
@@ -188,15 +189,15 @@ impl SettingsArgs {
     }
 
     /// The scene, as it was named.
-    pub fn scene(&self) -> &str {
-        self.scene.as_deref().unwrap_or(BUILTINS[0].name)
+    pub fn scene(&self) -> &Path {
+        self.scene.as_deref().unwrap_or(Path::new(BUILTINS[0].name))
     }
 
     fn resolve(&self, samples: u32) -> Result<Settings> {
         self.resolve_scene(self.scene(), samples)
     }
 
-    fn resolve_scene(&self, name: &str, samples: u32) -> Result<Settings> {
+    fn resolve_scene(&self, name: &Path, samples: u32) -> Result<Settings> {
         let mut settings = Settings::of_scene(SceneRef::new(scene::load(name)?));
         settings.samples = samples;
         self.apply(&mut settings)?;

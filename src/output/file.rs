@@ -2,7 +2,7 @@
 
 use super::Origin;
 use crate::error::{Error, Result};
-use crate::pending_file::{PendingFile, cannot_write};
+use crate::pending_file::{PendingFile, keep_apart};
 use crate::renderer::Renderer;
 use crate::settings::Settings;
 use exr::prelude::{
@@ -52,6 +52,7 @@ pub fn save(renderer: &mut Renderer, settings: &Settings, path: &Path) -> Result
     if renderer.progress().samples != samples {
         return Err(Error::OutOfRange("the picture has just changed; save it in a moment".into()));
     }
+    keep_apart(&[("the picture", path)], &settings.files())?;
     write_picture(renderer, &settings, format, PendingFile::create(path)?)
 }
 
@@ -60,10 +61,17 @@ pub fn save(renderer: &mut Renderer, settings: &Settings, path: &Path) -> Result
 /// # Errors
 /// [`Error::OutOfRange`] for a name that is no scene's, [`Error::Write`], or of reading the scene's own file.
 pub fn save_scene(settings: &Settings, path: &Path) -> Result<()> {
-    if path.extension().is_none_or(|extension| extension != "toml") {
+    if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("toml")) {
         return Err(Error::OutOfRange(format!("a scene file is a .toml; {} is not", path.display())));
     }
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let mut files = settings.files();
+    // A scene may be saved over itself, but not over its mesh.
+    let source = &settings.estimator.scene.source;
+    if source.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
+        files.retain(|(_, file)| file != source);
+    }
+    keep_apart(&[("the scene", path)], &files)?;
     let text = settings.scene_file(folder.unwrap_or(Path::new(".")))?;
     PendingFile::create(path)?.write(text.as_bytes())
 }
@@ -113,7 +121,7 @@ pub fn write_png(
         writer.finish()?;
         Ok(bytes)
     };
-    let bytes = encode().map_err(|error| cannot_write(file.path(), &error))?;
+    let bytes = encode().map_err(|error| not_encoded(file.path(), &error))?;
     file.write(&bytes)
 }
 
@@ -143,6 +151,10 @@ pub fn write_exr(
     );
     let mut bytes = Cursor::new(Vec::new());
     let written = Image::from_layer(layer).write().to_buffered(&mut bytes);
-    written.map_err(|error| cannot_write(file.path(), &error))?;
+    written.map_err(|error| not_encoded(file.path(), &error))?;
     file.write(bytes.get_ref())
+}
+
+fn not_encoded(path: &Path, error: &dyn std::fmt::Display) -> Error {
+    Error::Write { path: path.to_path_buf(), reason: error.to_string() }
 }

@@ -3,9 +3,9 @@
 use super::progress::ProgressDisplay;
 use super::{PictureFormat, Stats, say, write_picture};
 use crate::error::{Error, Result};
-use crate::pending_file::PendingFile;
+use crate::pending_file::{PendingFile, keep_apart};
 use crate::renderer::{Question, Renderer};
-use crate::settings::{DeviceChoice, Place, Settings};
+use crate::settings::{DeviceChoice, Place, Settings, quoted};
 use crate::vulkan::{Device, Instance};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -15,6 +15,8 @@ use std::sync::Arc;
 pub struct Job {
     /// What to render.
     pub settings: Settings,
+    /// The picture that the settings are from, if they are from one.
+    pub from: Option<PathBuf>,
     /// Where the picture is to be in focus, if not where the settings say.
     pub autofocus: Option<Place>,
     /// Where to: `.png` for 8-bit sRGB, `.exr` for linear values and counts.
@@ -34,9 +36,13 @@ pub struct Job {
 pub fn render(job: &Job) -> Result<()> {
     job.settings.check()?;
     let format = PictureFormat::of(&job.output).ok_or_else(|| Error::UnknownFormat(job.output.clone()))?;
-    if job.stats.as_ref() == Some(&job.output) {
-        return Err(Error::OutOfRange("--output and --stats name the same file; give each its own".into()));
-    }
+    let files = job.settings.files();
+    let mut outputs = vec![("--output", job.output.as_path())];
+    outputs.extend(job.stats.as_deref().map(|stats| ("--stats", stats)));
+    keep_apart(&outputs, &files)?;
+    // The picture itself may be written anew, but not turned into figures.
+    let from = job.from.as_deref().map(|from| ("the picture of --from", from));
+    keep_apart(&outputs[1..], from.as_slice())?;
     let instance = Instance::new(job.device.validation, None)?;
     // What went wrong first is the better reason.
     render_on(&instance, job, format)?;
@@ -50,10 +56,20 @@ pub fn render(job: &Job) -> Result<()> {
 pub fn render_instead(settings: Settings, device: DeviceChoice, why: &str) -> Result<()> {
     eprintln!("no display for the viewer ({why}); rendering the scene to a file instead");
     let output = std::env::current_dir().unwrap_or_default().join("thinlens.png");
-    let scene = settings.estimator.scene.source.clone();
-    render(&Job { settings, autofocus: None, output: output.clone(), stats: None, device, quiet: false })?;
+    let scene = settings.arguments().swap_remove(0);
+    let job = Job {
+        settings,
+        from: None,
+        autofocus: None,
+        output: output.clone(),
+        stats: None,
+        device,
+        quiet: false,
+    };
+    render(&job)?;
     say(&format!("the picture is {}", output.display()))?;
-    let program = std::env::args().next().unwrap_or_else(|| "thinlens".into());
+    let program = std::env::args_os().next().unwrap_or_else(|| "thinlens".into());
+    let [program, scene] = [program, scene].map(|word| quoted(&word));
     say(&format!("next, try: {program} render {scene} --lens-diameter 0 -o pinhole.png"))
 }
 
@@ -122,7 +138,8 @@ fn render_on(instance: &Arc<Instance>, job: &Job, format: PictureFormat) -> Resu
     }
     if stats.rejected_samples > 0 {
         eprintln!(
-            "thinlens: {} of {} samples were not finite and are left out; look at the scene for huge values",
+            "thinlens: {} of {} samples are left out, for their light was not finite or their ray took more than \
+             1024 steps through the scene; look there for huge values, and for many things at one place",
             stats.rejected_samples, stats.samples
         );
     }

@@ -1,13 +1,19 @@
 //! How a picture was made, carried by its file: the arguments that render it again.
 
-use crate::error::{Error, Result};
-use exr::meta::attribute::{AttributeValue, Text};
+use crate::error::{Error, Result, cannot_read};
+use crate::input_file;
+use crate::settings::saved_names;
+use exr::meta::attribute::{AttributeValue, Text as ExrText};
 use serde::{Deserialize, Serialize};
+use std::ffi::OsString;
+use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
 /// The key of it in a file: of a PNG's text, and of an EXR's attribute.
 const KEY: &str = "thinlens";
+/// The most bytes that the text has once it is unpacked.
+const MOST_TEXT: usize = 1 << 20;
 
 /// What a picture file says of how it was made, as JSON.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -15,12 +21,13 @@ pub struct Origin {
     /// Of the program.
     version: String,
     /// What follows `thinlens render`, but for where to.
-    pub arguments: Vec<String>,
+    #[serde(with = "saved_names")]
+    pub arguments: Vec<OsString>,
 }
 
 impl Origin {
     /// Of a picture that these arguments render.
-    pub fn new(arguments: Vec<String>) -> Self {
+    pub fn new(arguments: Vec<OsString>) -> Self {
         Self { version: env!("CARGO_PKG_VERSION").into(), arguments }
     }
 
@@ -30,11 +37,19 @@ impl Origin {
     /// [`Error::Read`], [`Error::UnknownFormat`], or [`Error::NoOrigin`] where the file does not say.
     pub fn read(path: &Path) -> Result<Self> {
         let without = |why: String| Error::NoOrigin { path: path.to_path_buf(), why };
-        let text = match super::PictureFormat::of(path) {
-            Some(super::PictureFormat::Png) => text_of_png(path)?,
-            Some(super::PictureFormat::Exr) => text_of_exr(path)?,
-            None => return Err(without("it is neither a .png nor an .exr".into())),
+        if super::PictureFormat::of(path).is_none() {
+            return Err(without("it is neither a .png nor an .exr".into()));
+        }
+        let mut file = input_file::open(path)?;
+        let beginning = input_file::beginning(&mut file).map_err(|error| cannot_read(path, &error))?;
+        // By what it is: a name is easily changed.
+        let text = match input_file::kind(&beginning) {
+            Some(input_file::PNG) => input_file::guarded(|| text_of_png(file)),
+            Some(input_file::EXR) => input_file::guarded(|| text_of_exr(file)),
+            Some(kind) => return Err(without(format!("it is {kind}, whatever its name"))),
+            None => return Err(without("it is no picture, whatever its name".into())),
         };
+        let text = text.unwrap_or_else(|| Err("the file is damaged".into())).map_err(without)?;
         let text =
             text.ok_or_else(|| without("thinlens did not write it, or another program has since".into()))?;
         serde_json::from_str(&text).map_err(|error| without(error.to_string()))
@@ -42,7 +57,7 @@ impl Origin {
 
     /// As text of plain ASCII, which every file format can hold.
     fn text(&self) -> String {
-        let json = serde_json::to_string(self).expect("plain strings are JSON");
+        let json = serde_json::to_string(self).expect("names are JSON");
         let mut text = String::new();
         for letter in json.chars() {
             if letter.is_ascii() {
@@ -65,28 +80,50 @@ impl Origin {
     }
 
     /// As an EXR's attribute.
-    pub(super) fn attribute(&self) -> (Text, AttributeValue) {
-        (Text::from(KEY), AttributeValue::Text(Text::from(self.text().as_str())))
+    pub(super) fn attribute(&self) -> (ExrText, AttributeValue) {
+        (ExrText::from(KEY), AttributeValue::Text(ExrText::from(self.text().as_str())))
     }
 }
 
-fn cannot_read(path: &Path) -> impl Fn(std::io::Error) -> Error {
-    move |source| Error::Read { path: path.to_path_buf(), source }
+/// What the file of this kind says, if it says anything; or what is wrong with it.
+type Text = std::result::Result<Option<String>, String>;
+
+/// From wherever the text stands in a PNG: programs that save it anew put it behind the pixels, or pack it.
+fn text_of_png(file: File) -> Text {
+    let damaged = |error: png::DecodingError| format!("the file is damaged ({error})");
+    let mut reader = png::Decoder::new(BufReader::new(file)).read_info().map_err(damaged)?;
+    if let Some(text) = text_among(reader.info()) {
+        return Ok(Some(text));
+    }
+    let rest = reader.finish();
+    match text_among(reader.info()) {
+        Some(text) => Ok(Some(text)),
+        None => rest.map(|()| None).map_err(damaged),
+    }
 }
 
-fn text_of_png(path: &Path) -> Result<Option<String>> {
-    let file = std::fs::File::open(path).map_err(cannot_read(path))?;
-    let reader = png::Decoder::new(BufReader::new(file)).read_info();
-    let reader = reader.map_err(|error| cannot_read(path)(std::io::Error::other(error)))?;
-    let texts = &reader.info().uncompressed_latin1_text;
-    Ok(texts.iter().find(|text| text.keyword == KEY).map(|text| text.text.clone()))
+fn text_among(info: &png::Info<'_>) -> Option<String> {
+    let plain = info.uncompressed_latin1_text.iter().find(|text| text.keyword == KEY);
+    let packed = || {
+        let mut text = info.compressed_latin1_text.iter().find(|text| text.keyword == KEY)?.clone();
+        text.decompress_text_with_limit(MOST_TEXT).ok()?;
+        text.get_text().ok()
+    };
+    let international = || {
+        let mut text = info.utf8_text.iter().find(|text| text.keyword == KEY)?.clone();
+        text.decompress_text_with_limit(MOST_TEXT).ok()?;
+        text.get_text().ok()
+    };
+    plain.map(|text| text.text.clone()).or_else(packed).or_else(international)
 }
 
-fn text_of_exr(path: &Path) -> Result<Option<String>> {
-    let file = std::fs::File::open(path).map_err(cannot_read(path))?;
+fn text_of_exr(file: File) -> Text {
     let meta = exr::meta::MetaData::read_from_buffered(BufReader::new(file), false);
-    let meta = meta.map_err(|error| cannot_read(path)(std::io::Error::other(error)))?;
-    let attributes = meta.headers.iter().flat_map(|header| &header.own_attributes.other);
+    let meta = meta.map_err(|error| format!("the file is damaged ({error})"))?;
+    let attributes = meta
+        .headers
+        .iter()
+        .flat_map(|header| header.own_attributes.other.iter().chain(&header.shared_attributes.other));
     let text = attributes.into_iter().find(|(key, _)| **key == *KEY).map(|(_, value)| value);
     Ok(match text {
         Some(AttributeValue::Text(text)) => Some(text.to_string()),

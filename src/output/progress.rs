@@ -1,8 +1,10 @@
 //! How far a rendering is: a bar on a terminal, plain lines elsewhere.
 
 use crate::error::Result;
+use crate::interrupt::Leftover;
 use crate::settings::Settings;
 use indicatif::{HumanCount, ProgressBar, ProgressStyle};
+use std::convert::Infallible;
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
@@ -36,7 +38,8 @@ pub fn loading_line(scene: &str, triangles: u64, took: Duration) -> Option<Strin
 
 /// Shows progress on standard error.
 pub(super) struct ProgressDisplay {
-    bar: Option<ProgressBar>,
+    /// Taken off the terminal when a signal ends the program.
+    bar: Option<(ProgressBar, Leftover)>,
     target: u32,
     pixels: u64,
     started: Instant,
@@ -50,7 +53,10 @@ impl ProgressDisplay {
             let style =
                 ProgressStyle::with_template("{bar:32} {pos}/{len} samples per pixel, {msg}, {eta} left")
                     .expect("the template is valid");
-            ProgressBar::new(u64::from(target)).with_style(style)
+            let bar = ProgressBar::new(u64::from(target)).with_style(style);
+            let of_signal = bar.clone();
+            let Ok(bar) = Leftover::of(|| Ok::<_, Infallible>(bar), move || of_signal.finish_and_clear());
+            bar
         });
         Self { bar, target, pixels, started: Instant::now(), last_line: Instant::now(), quiet }
     }
@@ -58,7 +64,7 @@ impl ProgressDisplay {
     pub(super) fn show(&mut self, samples: u32, traced: u64) {
         let rate = traced as f64 / self.started.elapsed().as_secs_f64();
         let message = format!("{:.1} M samples/s", rate / 1e6);
-        if let Some(bar) = &self.bar {
+        if let Some((bar, _)) = &self.bar {
             bar.set_position(u64::from(samples));
             bar.set_message(message);
         } else if !self.quiet && self.last_line.elapsed() >= LINE_EVERY {
@@ -70,7 +76,7 @@ impl ProgressDisplay {
     }
 
     pub(super) fn finish(self) -> Duration {
-        if let Some(bar) = self.bar {
+        if let Some((bar, _)) = self.bar {
             bar.finish_and_clear();
         }
         self.started.elapsed()

@@ -25,7 +25,7 @@ pub struct Stats {
     pub samples: u64,
     /// Rays traced, shadow rays among them.
     pub rays: u64,
-    /// Samples that were not finite and so not averaged in.
+    /// Samples that were not averaged in: not finite, or given up.
     pub rejected_samples: u64,
     /// Wall-clock time of the rendering, without start-up and file.
     pub seconds: f64,

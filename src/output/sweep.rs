@@ -4,7 +4,7 @@ use super::progress::ProgressDisplay;
 use super::sheet::Sheet;
 use super::{PictureFormat, say, write_png};
 use crate::error::{Error, Result};
-use crate::pending_file::PendingFile;
+use crate::pending_file::{PendingFile, keep_apart};
 use crate::renderer::Renderer;
 use crate::settings::{DeviceChoice, Settings, Sweep};
 use crate::vulkan::{Device, Instance};
@@ -39,6 +39,7 @@ pub fn sweep(job: &SweepJob) -> Result<()> {
             job.output.display()
         )));
     }
+    keep_apart(&[("--output", &job.output)], &job.settings.files())?;
     let pictures = job.sweep.pictures(&job.settings)?;
     let sheet = Sheet::new(job.settings.estimator.size, pictures.len() as u32, job.columns)?;
     let instance = Instance::new(job.device.validation, None)?;

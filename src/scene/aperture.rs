@@ -1,14 +1,10 @@
 //! The shape of the opening that light comes in through.
 
-use crate::error::{Error, Result};
+use super::ApertureImage;
 use std::f64::consts::PI;
-use std::path::Path;
-use std::sync::Arc;
 
 /// How many blades an iris can have.
 pub const BLADES: std::ops::RangeInclusive<u32> = 3..=16;
-/// Images are reduced to as many cells across at most.
-const MOST_CELLS: u32 = 256;
 
 /// The shape of an opening of a given diameter. Light comes in evenly all over it.
 #[derive(Debug, Clone, PartialEq)]
@@ -90,85 +86,4 @@ impl Aperture {
     pub fn half_blade(&self) -> f64 {
         PI / f64::from(self.blades)
     }
-}
-
-/// Where light comes in, as an image: shared, and equal where it is the same loading.
-#[derive(Clone)]
-pub struct ApertureImage(Arc<Mask>);
-
-/// Cells, row by row from the upper left as seen from behind the camera, and how much light each lets in.
-/// The longer side is the opening's diameter.
-pub struct Mask {
-    /// Columns and rows.
-    pub size: [u32; 2],
-    /// Not negative, and not all zero.
-    pub cells: Vec<f32>,
-    /// The file it is from.
-    pub file: String,
-}
-
-impl std::fmt::Debug for ApertureImage {
-    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(out, "{} ({:?} cells)", self.file, self.size)
-    }
-}
-
-impl PartialEq for ApertureImage {
-    fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.0, &other.0)
-    }
-}
-
-impl std::ops::Deref for ApertureImage {
-    type Target = Mask;
-
-    fn deref(&self) -> &Mask {
-        &self.0
-    }
-}
-
-impl ApertureImage {
-    /// Reads a PNG: its brightness, times its opacity, is how much light comes in there.
-    ///
-    /// # Errors
-    /// [`Error::Read`], or [`Error::ApertureImage`] for what is no PNG or lets no light in.
-    pub fn read(path: &Path) -> Result<Self> {
-        let file = path.display().to_string();
-        let fault = |message: String| Error::ApertureImage { file: file.clone(), message };
-        let bytes = std::fs::read(path).map_err(|source| Error::Read { path: path.to_path_buf(), source })?;
-        let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
-        decoder.set_transformations(png::Transformations::normalize_to_color8());
-        let mut reader =
-            decoder.read_info().map_err(|error| fault(format!("it is not a PNG file: {error}")))?;
-        let size = reader.output_buffer_size().ok_or_else(|| fault("it is too large".into()))?;
-        let mut pixels = vec![0; size];
-        let info = reader.next_frame(&mut pixels).map_err(|error| fault(error.to_string()))?;
-        let channels = info.color_type.samples();
-        let light = pixels[..info.buffer_size()].chunks_exact(channels).map(|pixel| {
-            let level = |channel: usize| f32::from(pixel[channel]) / 255.0;
-            match channels {
-                1 => level(0),
-                2 => level(0) * level(1),
-                3 => (level(0) + level(1) + level(2)) / 3.0,
-                _ => (level(0) + level(1) + level(2)) / 3.0 * level(3),
-            }
-        });
-        let mask = reduce([info.width, info.height], &light.collect::<Vec<_>>(), file.clone());
-        if mask.cells.iter().all(|cell| *cell <= 0.0) {
-            return Err(fault("it is black all over, so no light would come in".into()));
-        }
-        Ok(Self(Arc::new(mask)))
-    }
-}
-
-/// Means over as many pixels as make at most [`MOST_CELLS`] cells across.
-fn reduce([width, height]: [u32; 2], light: &[f32], file: String) -> Mask {
-    let step = width.max(height).div_ceil(MOST_CELLS);
-    let size = [width.div_ceil(step), height.div_ceil(step)];
-    let mut cells = vec![0.0; size[0] as usize * size[1] as usize];
-    for (i, light) in (0..).zip(light) {
-        let (column, row) = (i % width / step, i / width / step);
-        cells[(row * size[0] + column) as usize] += light / (step * step) as f32;
-    }
-    Mask { size, cells, file }
 }

@@ -2,10 +2,14 @@
 
 use super::format::SceneFile;
 use super::mesh::Mesh;
-use super::{BUILTINS, Scene, stage};
+use super::{BUILTINS, Scene, stage, text, words};
 use crate::error::{Error, Result};
+use crate::input_file;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+
+/// The most bytes of a scene file. What is read from them takes some fifty times as many.
+const MOST_TEXT: u64 = 128 << 20;
 
 /// What is wrong, and where in the text.
 pub(super) struct Fault {
@@ -29,7 +33,7 @@ pub struct Loaded {
 /// # Errors
 /// [`Error::UnknownScene`] with near names, [`Error::Read`], [`Error::Scene`] with file and line, or
 /// [`Error::Mesh`].
-pub fn load(scene: &str) -> Result<Scene> {
+pub fn load(scene: impl AsRef<Path>) -> Result<Scene> {
     Ok(load_with_text(scene)?.scene)
 }
 
@@ -37,53 +41,56 @@ pub fn load(scene: &str) -> Result<Scene> {
 ///
 /// # Errors
 /// As [`load`].
-pub fn load_with_text(scene: &str) -> Result<Loaded> {
+pub fn load_with_text(scene: impl AsRef<Path>) -> Result<Loaded> {
+    let scene = scene.as_ref();
     let mut loaded = load_named(scene)?;
     scene.clone_into(&mut loaded.scene.source);
     Ok(loaded)
 }
 
-fn load_named(scene: &str) -> Result<Loaded> {
-    if let Some(builtin) = BUILTINS.iter().find(|builtin| builtin.name == scene) {
+fn load_named(scene: &Path) -> Result<Loaded> {
+    if let Some(builtin) = BUILTINS.iter().find(|builtin| scene == Path::new(builtin.name)) {
         let text = builtin.toml.to_owned();
-        return Ok(Loaded { scene: parse(builtin.name, builtin.name, &text)?, text, folder: PathBuf::new() });
+        return Ok(Loaded { scene: parse(builtin.name, scene, &text)?, text, folder: PathBuf::new() });
     }
-    let path = Path::new(scene);
-    let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
-    match path.extension() {
-        Some(extension) if extension == "toml" => {
-            let read = std::fs::read_to_string(path);
-            let text = read.map_err(|source| Error::Read { path: path.to_path_buf(), source })?;
-            let name = path.file_stem().unwrap_or_default().to_string_lossy();
-            Ok(Loaded { scene: parse(&name, scene, &text)?, text, folder })
+    let folder = scene.parent().unwrap_or(Path::new("")).to_path_buf();
+    match scene.extension() {
+        Some(extension) if extension.eq_ignore_ascii_case("toml") => {
+            let text = text::decode(input_file::read(scene, MOST_TEXT)?);
+            let text = text.map_err(|(line, message)| fault_in(scene, line, message))?;
+            let name = scene.file_stem().unwrap_or_default().to_string_lossy();
+            let mut loaded = parse(&name, scene, &text)?;
+            loaded.files.insert(0, scene.to_path_buf());
+            Ok(Loaded { scene: loaded, text, folder })
         }
         Some(extension) if extension.eq_ignore_ascii_case("obj") => {
-            let name = path.file_name().unwrap_or_default().to_string_lossy();
-            let (scene, text) = stage::around(&Mesh::read(path)?, &name)?;
+            let name = scene.file_name().unwrap_or_default().to_string_lossy();
+            let (scene, text) = stage::around(&Mesh::read(scene)?, &name)?;
             Ok(Loaded { scene, text, folder })
         }
         _ => Err(unknown(scene)),
     }
 }
 
-fn parse(name: &str, file: &str, text: &str) -> Result<Scene> {
-    let at = |span: Range<usize>, message: String| Error::Scene {
-        file: file.to_owned(),
-        line: text[..span.start.min(text.len())].matches('\n').count() + 1,
-        message,
-    };
-    let tables: SceneFile = toml::from_str(text).map_err(|error| {
-        let message = error.message().replace('\n', "; ");
-        at(error.span().unwrap_or(0..0), message)
-    })?;
-    let folder = Path::new(file).parent().unwrap_or(Path::new(""));
-    tables.into_scene(name, folder).map_err(|fault| at(fault.span, fault.message))
+fn fault_in(file: &Path, line: usize, message: String) -> Error {
+    Error::Scene { file: file.display().to_string(), line, message }
 }
 
-fn unknown(scene: &str) -> Error {
+fn parse(name: &str, file: &Path, text: &str) -> Result<Scene> {
+    let at = |fault: Fault| {
+        let before = &text.as_bytes()[..fault.span.start.min(text.len())];
+        fault_in(file, before.iter().filter(|byte| **byte == b'\n').count() + 1, fault.message)
+    };
+    let tables: SceneFile = words::read(text).map_err(at)?;
+    let folder = file.parent().unwrap_or(Path::new(""));
+    tables.into_scene(name, folder).map_err(at)
+}
+
+fn unknown(scene: &Path) -> Error {
+    let scene = scene.to_string_lossy();
     let names = || BUILTINS.iter().map(|builtin| builtin.name);
     let near: Vec<&str> =
-        names().filter(|name| name.contains(scene) || strsim::jaro_winkler(name, scene) > 0.8).collect();
+        names().filter(|name| name.contains(&*scene) || strsim::jaro_winkler(name, &scene) > 0.8).collect();
     let hint = if near.is_empty() {
         format!(
             "the built-in ones are {}, or give a .toml scene or an .obj mesh",
@@ -92,5 +99,5 @@ fn unknown(scene: &str) -> Error {
     } else {
         format!("did you mean {}?", near.join(" or "))
     };
-    Error::UnknownScene { name: scene.to_owned(), hint }
+    Error::UnknownScene { name: scene.into_owned(), hint }
 }

@@ -9,7 +9,7 @@ use super::number::{Count, Extent, NonNegative, Positive, Rgb, Vector};
 use super::{Aabb, Background, Light, LightKind, Plane, Scene, Shaded, Sphere, Triangle, View};
 use glam::{DVec3, Vec3};
 use serde::Deserialize;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use toml::Spanned;
 
 #[derive(Deserialize)]
@@ -170,7 +170,8 @@ impl SceneFile {
 
         let mut scene = Scene {
             name: name.to_owned(),
-            source: String::new(),
+            source: PathBuf::new(),
+            files: Vec::new(),
             camera,
             model,
             lens,

@@ -3,9 +3,10 @@
 use super::obj::{self, Face, Obj};
 use super::{MAX_LENGTH, Material, Scene, Shaded, Triangle};
 use crate::error::{Error, Result};
+use crate::input_file;
 use glam::{DQuat, DVec3, Vec3};
 use std::collections::HashMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Where a mesh has no normals, an edge between faces whose normals differ by more stays an edge.
 const CREASE_DEGREES: f32 = 40.0;
@@ -25,6 +26,8 @@ const CLAY: Material = Material {
 /// A mesh in the coordinates of its file.
 pub(super) struct Mesh {
     file: String,
+    /// The files it was read from.
+    files: Vec<PathBuf>,
     obj: Obj,
     /// The diffuse colour of each of the file's materials, where it has one.
     colors: Vec<Option<Vec3>>,
@@ -57,7 +60,7 @@ impl Mesh {
     /// [`Error::Read`], [`Error::Scene`] with a line, or [`Error::Mesh`].
     pub(super) fn read(path: &Path) -> Result<Self> {
         let file = path.display().to_string();
-        let text = std::fs::read(path).map_err(|source| Error::Read { path: path.to_path_buf(), source })?;
+        let text = input_file::read(path, input_file::MOST_BYTES)?;
         let obj = obj::parse(&text).map_err(|fault| Error::Scene {
             file: file.clone(),
             line: fault.line,
@@ -67,16 +70,20 @@ impl Mesh {
             let message = "there are no faces ('f' lines); export the mesh as polygons".into();
             return Err(Error::Mesh { file, message });
         }
+        let mut files = vec![path.to_path_buf()];
         let mut library = HashMap::new();
         for name in &obj.libraries {
             let path = path.with_file_name(name);
-            match std::fs::read(&path) {
-                Ok(text) => library.extend(obj::parse_library(&text)),
-                Err(error) => log::warn!("{file}: its colours in {} are not read: {error}", path.display()),
+            match input_file::read(&path, input_file::MOST_BYTES) {
+                Ok(text) => {
+                    library.extend(obj::parse_library(&text));
+                    files.push(path);
+                }
+                Err(error) => log::warn!("{file}: its colours are not read: {error}"),
             }
         }
         let colors = obj.materials.iter().map(|name| library.get(name).copied()).collect();
-        Ok(Self { file, obj, colors })
+        Ok(Self { file, files, obj, colors })
     }
 
     /// What is wrong with it as a whole.
@@ -140,6 +147,7 @@ impl Mesh {
             velocity,
         });
         scene.triangles.extend(triangles);
+        scene.files.extend(self.files.iter().cloned());
         Ok(())
     }
 

@@ -1,6 +1,7 @@
 //! What is rendered, as plain values. Nothing here knows of a GPU.
 
 mod aperture;
+mod aperture_image;
 mod builtin;
 mod bvh;
 mod camera;
@@ -18,9 +19,12 @@ mod optics;
 mod preset;
 mod shape;
 mod stage;
+mod text;
 mod view;
+mod words;
 
-pub use aperture::{Aperture, ApertureImage, BLADES, Mask};
+pub use aperture::{Aperture, BLADES};
+pub use aperture_image::{ApertureImage, Mask};
 pub use builtin::{BUILTINS, Builtin};
 pub use bvh::{Bounded, Bvh, Node, Record};
 pub use camera::{Camera, CameraModel, Frame, Hole, Lens};
@@ -33,6 +37,7 @@ pub use shape::{Aabb, Plane, Shaded, Sphere, Triangle};
 pub use view::{Overlay, View};
 
 use glam::{DVec3, Vec3};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// The largest width and height of a picture, in pixels.
@@ -56,7 +61,9 @@ pub struct Scene {
     /// The built-in's name, or the file's.
     pub name: String,
     /// As it was named to [`load`]: a built-in, or a path.
-    pub source: String,
+    pub source: PathBuf,
+    /// The files it was read from: its own, and those of its meshes.
+    pub files: Vec<PathBuf>,
     /// Where the picture is taken from.
     pub camera: Camera,
     /// What forms the picture.

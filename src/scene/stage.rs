@@ -8,6 +8,7 @@ use super::{
 use crate::error::Result;
 use glam::{DVec3, Vec3};
 use std::ops::RangeInclusive;
+use std::path::PathBuf;
 
 const MAX_BOUNCES: u32 = 5;
 const HORIZON: Vec3 = Vec3::new(0.92, 0.9, 0.87);
@@ -87,7 +88,8 @@ pub(super) fn around(mesh: &Mesh, name: &str) -> Result<(Scene, String)> {
     let camera = camera(ground.position + 0.5 * (lower + upper), 0.5 * (upper - lower));
     let mut scene = Scene {
         name: name.to_owned(),
-        source: String::new(),
+        source: PathBuf::new(),
+        files: Vec::new(),
         camera,
         model: CameraModel::default(),
         lens: Lens { diameter: 0.0, focal_distance: 1.0 },

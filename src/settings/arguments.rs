@@ -2,18 +2,29 @@
 //! carry.
 
 use super::{Sampler, Settings};
-use crate::scene::{CameraModel, Overlay};
+use crate::scene::{BUILTINS, CameraModel, Overlay};
 use glam::DVec3;
+use std::ffi::{OsStr, OsString};
+use std::path::{Path, PathBuf};
 
 impl Settings {
     /// What follows `thinlens render` to get this picture again, but for where to: the scene as it was named,
     /// size and samples, and what is not as the scene has it. Numbers have as many digits as they need to come
     /// back the same.
-    pub fn arguments(&self) -> Vec<String> {
+    pub fn arguments(&self) -> Vec<OsString> {
+        self.arguments_with(Path::to_path_buf)
+    }
+
+    /// Likewise, to be used in another folder: files have whole paths.
+    pub fn arguments_from_anywhere(&self) -> Vec<OsString> {
+        self.arguments_with(|file| std::path::absolute(file).unwrap_or_else(|_| file.to_path_buf()))
+    }
+
+    fn arguments_with(&self, named: impl Fn(&Path) -> PathBuf) -> Vec<OsString> {
         let (estimator, view) = (&self.estimator, &self.view);
         let scene = &*estimator.scene;
         let plain = Self::of_scene(estimator.scene.clone());
-        let mut list = Arguments(vec![scene.source.clone()]);
+        let mut list = Arguments(vec![scene_argument(&scene.source, &named)]);
         let [width, height] = estimator.size;
         list.push("size", format!("{width}x{height}"));
         list.push("samples", self.samples);
@@ -39,7 +50,10 @@ impl Settings {
         list.change("anamorphic", aperture.anamorphic, of_scene.anamorphic);
         list.change("cats-eye", aperture.cats_eye, of_scene.cats_eye);
         if aperture.image != of_scene.image {
-            list.push("aperture-image", aperture.image.as_ref().map_or("none", |image| &image.file));
+            let image = aperture.image.as_ref().map_or("none".into(), |image| named(&image.file));
+            let mut argument = OsString::from("--aperture-image=");
+            argument.push(image);
+            list.0.push(argument);
         }
 
         list.change("shutter", estimator.shutter, scene.shutter);
@@ -61,24 +75,16 @@ impl Settings {
 
     /// The same as a line for a shell.
     pub fn command_line(&self, output: &str) -> String {
-        let quoted = |word: &String| {
-            let plain = |letter: char| letter.is_ascii_alphanumeric() || "-_./=,:+".contains(letter);
-            if word.chars().all(plain) && !word.is_empty() {
-                word.clone()
-            } else {
-                format!("'{}'", word.replace('\'', r"'\''"))
-            }
-        };
-        let words: Vec<String> = self.arguments().iter().map(quoted).collect();
+        let words: Vec<String> = self.arguments().iter().map(|word| quoted(word)).collect();
         format!("thinlens render {} -o {output}", words.join(" "))
     }
 }
 
-struct Arguments(Vec<String>);
+struct Arguments(Vec<OsString>);
 
 impl Arguments {
     fn push(&mut self, name: &str, value: impl std::fmt::Display) {
-        self.0.push(format!("--{name}={value}"));
+        self.0.push(format!("--{name}={value}").into());
     }
 
     fn change<T: PartialEq + std::fmt::Display>(&mut self, name: &str, value: T, of_scene: T) {
@@ -90,6 +96,35 @@ impl Arguments {
     fn vector(&mut self, name: &str, value: DVec3, of_scene: DVec3) {
         if value != of_scene {
             self.push(name, format!("{},{},{}", value.x, value.y, value.z));
+        }
+    }
+}
+
+/// A scene as an argument. A name that begins with a dash would be taken for an option.
+fn scene_argument(source: &Path, named: impl Fn(&Path) -> PathBuf) -> OsString {
+    let builtin = BUILTINS.iter().any(|builtin| source == Path::new(builtin.name));
+    let path = if builtin { source.to_path_buf() } else { named(source) };
+    let dash = path.as_os_str().as_encoded_bytes().starts_with(b"-");
+    if dash { Path::new(".").join(path).into() } else { path.into() }
+}
+
+/// A word as a shell reads it. Bytes that are no text are written as bash, zsh and POSIX's shell of 2024 do.
+pub fn quoted(word: &OsStr) -> String {
+    let plain = |letter: char| letter.is_ascii_alphanumeric() || "-_./=,:+".contains(letter);
+    match word.to_str() {
+        Some(text) if text.chars().all(plain) && !text.is_empty() => text.into(),
+        Some(text) if !text.chars().any(char::is_control) => format!("'{}'", text.replace('\'', r"'\''")),
+        _ => {
+            let bytes = |bytes: &[u8]| bytes.iter().map(|byte| format!("\\x{byte:02x}")).collect::<String>();
+            let letter = |letter: char| match letter {
+                '\'' | '\\' => format!("\\{letter}"),
+                control if control.is_control() => bytes(control.encode_utf8(&mut [0; 4]).as_bytes()),
+                plain => plain.into(),
+            };
+            let chunks = word.as_encoded_bytes().utf8_chunks();
+            let text = chunks
+                .map(|chunk| chunk.valid().chars().map(letter).collect::<String>() + &bytes(chunk.invalid()));
+            format!("$'{}'", text.collect::<String>())
         }
     }
 }

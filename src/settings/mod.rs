@@ -1,9 +1,11 @@
 //! Everything a user can set, in the two halves that decide when the film starts anew.
 
 mod arguments;
+pub mod saved_names;
 mod scene_file;
 mod sweep;
 
+pub use arguments::quoted;
 pub use sweep::Sweep;
 
 use crate::error::{Error, Result};
@@ -12,6 +14,7 @@ use crate::scene::{
     MIN_LENGTH, Overlay, Preset, SceneRef, VFOV_DEGREES, View,
 };
 use std::ops::RangeInclusive;
+use std::path::Path;
 
 /// The film's count is held in f32, which is exact up to here.
 pub const MAX_SAMPLES: u32 = 1 << 24;
@@ -180,6 +183,14 @@ impl Settings {
         };
         settings.show(view.overlay);
         settings
+    }
+
+    /// The files that it is made from, each with what it is called in a message.
+    pub fn files(&self) -> Vec<(&'static str, &Path)> {
+        let Estimator { scene, aperture, .. } = &self.estimator;
+        let of_scene = scene.files.iter().map(|file| ("a file of the scene", file.as_path()));
+        let image = aperture.image.as_ref().map(|image| ("the aperture image", image.file.as_path()));
+        of_scene.chain(image).collect()
     }
 
     /// What the scene was composed for, as it is sampled here.

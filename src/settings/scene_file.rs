@@ -1,6 +1,6 @@
 //! Settings as a scene file: the scene's own, with the camera, its lens and the view as they are now.
 
-use super::arguments::name_of;
+use super::arguments::{name_of, quoted};
 use super::{MAX_EXPOSURE_STOPS, Settings, in_range};
 use crate::error::{Error, Result};
 use crate::scene::{self, CameraModel, Loaded, Overlay, Scene};
@@ -19,7 +19,13 @@ impl Settings {
         let source = &self.estimator.scene.source;
         // The file may have changed since it was loaded.
         let Loaded { scene, text, folder: own_folder } = scene::load_with_text(source)?;
-        let unusable = |message: String| Error::Scene { file: source.clone(), line: 1, message };
+        let unusable =
+            |message: String| Error::Scene { file: source.display().to_string(), line: 1, message };
+        // The text of the stage around a mesh has its name.
+        let is_mesh = source.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj"));
+        if is_mesh && source.file_name().is_some_and(|name| name.to_str().is_none()) {
+            return Err(not_text(source));
+        }
         let mut document: DocumentMut = text
             .parse()
             .map_err(|error: toml_edit::TomlError| unusable(error.message().replace('\n', "; ")))?;
@@ -32,12 +38,14 @@ impl Settings {
         }
         let camera = document.get_mut("camera").and_then(Item::as_table_like_mut);
         let camera = camera.ok_or_else(|| unusable("the file has no [camera] any more".into()))?;
-        self.write_camera(&mut Keys(camera), &scene, &files);
+        self.write_camera(&mut Keys(camera), &scene, &files)?;
         match document.get_mut("mesh") {
-            Some(Item::ArrayOfTables(meshes)) => meshes.iter_mut().for_each(|mesh| files.move_mesh(mesh)),
+            Some(Item::ArrayOfTables(meshes)) => {
+                meshes.iter_mut().try_for_each(|mesh| files.move_mesh(mesh))?;
+            }
             Some(Item::Value(Value::Array(meshes))) => {
-                let meshes = meshes.iter_mut().filter_map(Value::as_inline_table_mut);
-                meshes.for_each(|mesh| files.move_mesh(mesh));
+                let mut meshes = meshes.iter_mut().filter_map(Value::as_inline_table_mut);
+                meshes.try_for_each(|mesh| files.move_mesh(mesh))?;
             }
             _ => {}
         }
@@ -53,7 +61,7 @@ impl Settings {
         Ok(document.to_string())
     }
 
-    fn write_camera(&self, keys: &mut Keys<'_>, scene: &Scene, files: &Files) {
+    fn write_camera(&self, keys: &mut Keys<'_>, scene: &Scene, files: &Files) -> Result<()> {
         let estimator = &self.estimator;
         let (camera, own) = (&estimator.camera, &scene.camera);
         keys.vector("eye", camera.eye, own.eye);
@@ -86,11 +94,12 @@ impl Settings {
         keys.number("anamorphic", aperture.anamorphic, own.anamorphic);
         keys.number("cats_eye", aperture.cats_eye, own.cats_eye);
         match &aperture.image {
-            Some(image) => keys.put("aperture_image", files.seen(Path::new(&image.file)), &[]),
+            Some(image) => keys.put("aperture_image", files.seen(&image.file)?, &[]),
             None => drop(keys.0.remove("aperture_image")),
         }
         keys.number("shutter", estimator.shutter, scene.shutter);
         keys.number("iso", self.view.iso, scene.view.iso);
+        Ok(())
     }
 
     fn write_view(&self, keys: &mut Keys<'_>, scene: &Scene) -> Result<()> {
@@ -158,16 +167,27 @@ struct Files {
 
 impl Files {
     /// A mesh is found from the new scene.
-    fn move_mesh(&self, mesh: &mut dyn TableLike) {
+    fn move_mesh(&self, mesh: &mut dyn TableLike) -> Result<()> {
         if let Some(file) = mesh.get("file").and_then(Item::as_str).map(|file| self.from.join(file)) {
-            mesh.insert("file", value(self.seen(&file)));
+            mesh.insert("file", value(self.seen(&file)?));
         }
+        Ok(())
     }
 
     /// How a file is called in the new scene: from its folder if it lies in there, else by its whole path.
-    fn seen(&self, file: &Path) -> String {
+    fn seen(&self, file: &Path) -> Result<String> {
         let whole = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
         let (file, folder) = (whole(file), whole(&self.to));
-        file.strip_prefix(&folder).unwrap_or(&file).display().to_string()
+        let seen = file.strip_prefix(&folder).unwrap_or(&file);
+        seen.to_str().map(str::to_owned).ok_or_else(|| not_text(seen))
     }
+}
+
+/// A scene file is text, and would name another file.
+fn not_text(path: &Path) -> Error {
+    let path = quoted(path.as_os_str());
+    Error::OutOfRange(format!(
+        "the scene cannot be saved: it names the file {path}, whose name is no UTF-8, and a scene file holds only \
+         that; rename the file"
+    ))
 }

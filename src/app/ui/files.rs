@@ -4,7 +4,7 @@ use super::widgets::{Layout, combo, named, note_item, tooltip};
 use super::{Action, Panel};
 use crate::output;
 use imgui::Ui;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The name that pictures have until another one is typed.
 const PICTURE: &str = "thinlens.png";
@@ -53,13 +53,15 @@ impl Default for Files {
 impl Panel {
     pub(super) fn files(&mut self, ui: &Ui, layout: &mut Layout) -> Option<Action> {
         let mut action = None;
-        let mut wanted = None;
+        let mut wanted: Option<PathBuf> = None;
         combo(ui, "Recent files", "Recent files", "Files that were opened before.", layout, |layout| {
             if self.recent.is_empty() {
                 ui.text_disabled("none yet");
             }
-            for file in &self.recent {
-                if ui.selectable(file) {
+            for (number, file) in self.recent.iter().enumerate() {
+                // Names may be shown alike.
+                let _id = ui.push_id_usize(number);
+                if ui.selectable(file.to_string_lossy()) {
                     wanted = Some(file.clone());
                 }
                 note_item(ui, "Recent file", layout);
@@ -73,7 +75,7 @@ impl Panel {
             layout,
             |id| {
                 if ui.input_text(id, &mut files.open).enter_returns_true(true).build() {
-                    wanted = Some(std::mem::take(&mut files.open));
+                    wanted = Some(std::mem::take(&mut files.open).into());
                 }
             },
         );
@@ -144,10 +146,10 @@ impl Panel {
             return;
         }
         // What is rendered is told by its difference from the file, which has changed.
-        if file == self.settings.estimator.scene.source {
-            self.open(&file);
+        if Path::new(&file) == self.settings.estimator.scene.source {
+            self.open(Path::new(&file));
         }
-        self.remember(&file);
+        self.remember(Path::new(&file));
         self.files.scene = SaveAs::new(&file);
         self.say(format!("saved {file}"));
     }

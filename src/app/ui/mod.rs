@@ -24,7 +24,7 @@ use compare::Held;
 use files::Files;
 use imgui::{Condition, SliderFlags, Ui};
 use optics::Optics;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use widgets::{Layout, combo, named, note_item, section, tooltip};
 
 /// The points slider goes this far, or as far as was asked for.
@@ -57,9 +57,9 @@ pub(super) struct Panel {
     /// The last aperture that was an image.
     image: Option<ApertureImage>,
     /// The choices: the built-ins, and what was opened.
-    scenes: Vec<String>,
+    scenes: Vec<PathBuf>,
     /// What was opened before, the latest first.
-    recent: Vec<String>,
+    recent: Vec<PathBuf>,
     files: Files,
     /// Settings from the arguments that a picture carries.
     reopen: Reopen,
@@ -119,15 +119,13 @@ pub(super) enum Action {
     CopyCommand,
 }
 
-/// The argument that names the aperture's image.
-const IMAGE: &str = "--aperture-image=";
+/// A file's path from wherever one is.
+fn whole_path(file: &Path) -> PathBuf {
+    std::path::absolute(file).unwrap_or_else(|_| file.to_path_buf())
+}
 
-/// A file's path from wherever one is. A built-in scene has none.
-fn whole_path(file: &str) -> String {
-    if BUILTINS.iter().any(|builtin| builtin.name == file) {
-        return file.to_owned();
-    }
-    std::path::absolute(file).map_or_else(|_| file.to_owned(), |path| path.display().to_string())
+fn builtin(name: &Path) -> Option<&'static str> {
+    BUILTINS.iter().map(|builtin| builtin.name).find(|builtin| Path::new(builtin) == name)
 }
 
 impl Panel {
@@ -139,7 +137,7 @@ impl Panel {
             max_points: settings.samples.max(MAX_POINTS),
             image: settings.estimator.aperture.image.clone(),
             settings,
-            scenes: BUILTINS.iter().map(|builtin| builtin.name.to_owned()).collect(),
+            scenes: BUILTINS.iter().map(|builtin| builtin.name.into()).collect(),
             recent: options.memory.recent.clone(),
             files: Files::default(),
             reopen: options.reopen,
@@ -270,17 +268,10 @@ impl Panel {
     /// What to remember of it.
     pub(super) fn memory(&self) -> Memory {
         let Settings { estimator, .. } = &self.settings;
-        let mut arguments = self.settings.arguments();
-        // The next time the viewer may be started elsewhere.
-        arguments[0] = whole_path(&arguments[0]);
-        for argument in &mut arguments {
-            if let Some(file) = argument.strip_prefix(IMAGE).filter(|file| *file != "none") {
-                *argument = format!("{IMAGE}{}", whole_path(file));
-            }
-        }
         Memory {
             size: Some(estimator.size),
-            arguments,
+            // The next time the viewer may be started elsewhere.
+            arguments: self.settings.arguments_from_anywhere(),
             recent: self.recent.clone(),
             optics: self.optics.open,
         }
@@ -322,13 +313,15 @@ impl Panel {
         let mut chosen = None;
         let shown = self.settings.estimator.scene.source.clone();
         let help = "What is rendered: the built-in scenes, and what was opened.";
-        combo(ui, "Scene", &shown, help, layout, |layout| {
-            for name in &self.scenes {
-                if ui.selectable_config(name).selected(*name == shown).build() {
+        combo(ui, "Scene", &shown.to_string_lossy(), help, layout, |layout| {
+            for (number, name) in self.scenes.iter().enumerate() {
+                // Names may be shown alike.
+                let _id = ui.push_id_usize(number);
+                if ui.selectable_config(name.to_string_lossy()).selected(*name == shown).build() {
                     chosen = Some(name.clone());
                 }
-                if let Some(builtin) = BUILTINS.iter().find(|builtin| builtin.name == name) {
-                    note_item(ui, builtin.name, layout);
+                if let Some(builtin) = builtin(name) {
+                    note_item(ui, builtin, layout);
                 }
             }
         });
@@ -341,9 +334,9 @@ impl Panel {
     }
 
     /// Opens a scene, a mesh, or a picture with its settings; or says why not.
-    pub(super) fn open(&mut self, name: &str) {
-        let opened = match PictureFormat::of(Path::new(name)) {
-            Some(_) => Origin::read(Path::new(name)).and_then(|origin| (self.reopen)(&origin.arguments)),
+    pub(super) fn open(&mut self, name: &Path) {
+        let opened = match PictureFormat::of(name) {
+            Some(_) => Origin::read(name).and_then(|origin| (self.reopen)(&origin.arguments)),
             None => scene::load(name).map(|loaded| self.with_scene(SceneRef::new(loaded))),
         };
         match opened {
@@ -358,7 +351,7 @@ impl Panel {
                 self.settings = settings;
                 self.message = None;
                 self.offer_scene();
-                if !BUILTINS.iter().any(|builtin| builtin.name == name) {
+                if builtin(name).is_none() {
                     self.remember(name);
                 }
             }
@@ -367,7 +360,7 @@ impl Panel {
     }
 
     /// The file is the latest of those that are offered again.
-    fn remember(&mut self, file: &str) {
+    fn remember(&mut self, file: &Path) {
         let file = whole_path(file);
         self.recent.retain(|known| *known != file);
         self.recent.insert(0, file);

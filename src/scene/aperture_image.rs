@@ -1,0 +1,134 @@
+//! An image of where light comes in, read from a PNG row by row, so that a large one costs little memory.
+
+use super::MAX_EXTENT;
+use crate::error::{Error, Result};
+use crate::input_file;
+use std::fs::File;
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Images are reduced to as many cells across at most.
+const MOST_CELLS: u32 = 256;
+/// What helps against damage.
+const ANEW: &str = "save the image anew as a PNG";
+/// The light of a pixel that is white and opaque: a sum of three colours of 255, times 255.
+const WHITE: u64 = 3 * 255 * 255;
+
+/// Where light comes in, as an image: shared, and equal where it is the same loading.
+#[derive(Clone)]
+pub struct ApertureImage(Arc<Mask>);
+
+/// Cells, row by row from the upper left as seen from behind the camera, and how much light each lets in.
+/// The longer side is the opening's diameter.
+pub struct Mask {
+    /// Columns and rows.
+    pub size: [u32; 2],
+    /// Not negative, and not all zero.
+    pub cells: Vec<f32>,
+    /// The file it is from.
+    pub file: PathBuf,
+}
+
+impl std::fmt::Debug for ApertureImage {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(out, "{} ({:?} cells)", self.file.display(), self.size)
+    }
+}
+
+impl PartialEq for ApertureImage {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl std::ops::Deref for ApertureImage {
+    type Target = Mask;
+
+    fn deref(&self) -> &Mask {
+        &self.0
+    }
+}
+
+impl ApertureImage {
+    /// Reads a PNG: its brightness, times its opacity, is how much light comes in there.
+    ///
+    /// # Errors
+    /// [`Error::Read`], or [`Error::ApertureImage`] for what is no PNG, too large, or lets no light in.
+    pub fn read(path: &Path) -> Result<Self> {
+        let fault = |message: String| Error::ApertureImage { file: path.display().to_string(), message };
+        let mut file = input_file::open(path)?;
+        let beginning = input_file::beginning(&mut file);
+        let beginning = beginning.map_err(|error| crate::error::cannot_read(path, &error))?;
+        let kind = input_file::kind(&beginning);
+        if kind != Some(input_file::PNG) {
+            let is = kind.map_or_else(String::new, |kind| format!(": it is {kind}"));
+            return Err(fault(format!("it is not a PNG file{is}; {ANEW}")));
+        }
+        let cells = input_file::guarded(|| decode(file));
+        let (size, cells) = cells.unwrap_or_else(|| Err(format!("it is damaged; {ANEW}"))).map_err(fault)?;
+        if cells.iter().all(|cell| *cell <= 0.0) {
+            return Err(fault("it is black all over, so no light would come in".into()));
+        }
+        Ok(Self(Arc::new(Mask { size, cells, file: path.to_path_buf() })))
+    }
+}
+
+/// Columns and rows, and means over as many pixels as make at most [`MOST_CELLS`] cells across.
+fn decode(file: File) -> std::result::Result<([u32; 2], Vec<f32>), String> {
+    let damaged = |error: png::DecodingError| format!("it is damaged ({error}); {ANEW}");
+    let mut decoder = png::Decoder::new(BufReader::new(file));
+    decoder.set_transformations(png::Transformations::normalize_to_color8());
+    decoder.set_ignore_text_chunk(true);
+    decoder.set_ignore_iccp_chunk(true);
+    let header = decoder.read_header_info().map_err(damaged)?;
+    let ([width, height], interlaced) = ([header.width, header.height], header.interlaced);
+    if width.max(height) > MAX_EXTENT {
+        return Err(format!(
+            "it has {width} x {height} pixels, and may have {MAX_EXTENT} at most either way; make it \
+             smaller, for its light is averaged over {MOST_CELLS} x {MOST_CELLS} cells"
+        ));
+    }
+    let mut reader = decoder.read_info().map_err(damaged)?;
+    let channels = reader.output_color_type().0.samples();
+    let step = width.max(height).div_ceil(MOST_CELLS);
+    let size = [width.div_ceil(step), height.div_ceil(step)];
+    // Whole numbers: their sum does not depend on the order, so that an interlaced image is the same one.
+    let mut sums = vec![0_u64; size[0] as usize * size[1] as usize];
+    for Row { y, first, stride } in rows([width, height], interlaced) {
+        let row = reader.next_row().map_err(damaged)?.ok_or_else(|| format!("it is damaged; {ANEW}"))?;
+        let cells = &mut sums[(y / step * size[0]) as usize..];
+        for (x, pixel) in (first..).step_by(stride).zip(row.data().chunks_exact(channels)) {
+            let level = |channel: usize| u64::from(pixel[channel]);
+            cells[(x / step) as usize] += match channels {
+                1 => 3 * level(0) * 255,
+                2 => 3 * level(0) * level(1),
+                3 => (level(0) + level(1) + level(2)) * 255,
+                _ => (level(0) + level(1) + level(2)) * level(3),
+            };
+        }
+    }
+    let whole = (WHITE * u64::from(step) * u64::from(step)) as f64;
+    Ok((size, sums.into_iter().map(|sum| (sum as f64 / whole) as f32).collect()))
+}
+
+/// A row as a file holds it: every so many pixels of row `y`, from the first one on.
+struct Row {
+    y: u32,
+    first: u32,
+    stride: usize,
+}
+
+/// The rows of an image in the order of its file.
+fn rows([width, height]: [u32; 2], interlaced: bool) -> Vec<Row> {
+    /// First column and row, and the steps to the next ones, of each pass (PNG specification, 8.2).
+    const ADAM7: [[u32; 4]; 7] =
+        [[0, 0, 8, 8], [4, 0, 8, 8], [0, 4, 4, 8], [2, 0, 4, 4], [0, 2, 2, 4], [1, 0, 2, 2], [0, 1, 1, 2]];
+    let passes = if interlaced { &ADAM7[..] } else { &[[0, 0, 1, 1]] };
+    let of_pass = |[first, top, stride, down]: &[u32; 4]| {
+        let (first, stride) = (*first, *stride as usize);
+        let height = if first < width { height } else { 0 };
+        (*top..height).step_by(*down as usize).map(move |y| Row { y, first, stride })
+    };
+    passes.iter().flat_map(of_pass).collect()
+}

@@ -1,0 +1,54 @@
+//! The text of a scene file, from the bytes that an editor or a shell has put there.
+
+/// What the text is, or the line in which it is none and why.
+pub(super) fn decode(bytes: Vec<u8>) -> Result<String, (usize, String)> {
+    if let Some(rest) = bytes.strip_prefix(b"\xef\xbb\xbf") {
+        return utf8(rest.to_vec());
+    }
+    // The mark of UTF-32, little endian, begins with that of UTF-16.
+    if bytes.starts_with(&[0xff, 0xfe, 0, 0]) || bytes.starts_with(&[0, 0, 0xfe, 0xff]) {
+        return Err((1, "the file is UTF-32; save it as UTF-8".into()));
+    }
+    match bytes.as_slice() {
+        [0xff, 0xfe, rest @ ..] => utf16(rest, u16::from_le_bytes),
+        [0xfe, 0xff, rest @ ..] => utf16(rest, u16::from_be_bytes),
+        // Without a mark: a scene file begins with a letter of ASCII, of which one byte is 0.
+        [1..=127, 0, ..] => utf16(&bytes, u16::from_le_bytes),
+        [0, 1..=127, ..] => utf16(&bytes, u16::from_be_bytes),
+        _ => utf8(bytes),
+    }
+}
+
+fn utf8(bytes: Vec<u8>) -> Result<String, (usize, String)> {
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let byte = error.as_bytes()[at];
+        // What it is in Latin-1, which is what it most often is.
+        let letter = char::from(byte);
+        let meant = if letter.is_control() { String::new() } else { format!(", {letter} in Latin-1") };
+        let message = format!(
+            "the file is not UTF-8: here is a byte that no letter of UTF-8 has, {byte:#04x}{meant}; save the file \
+             as UTF-8"
+        );
+        (line(&error.as_bytes()[..at]), message)
+    })
+}
+
+fn utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Result<String, (usize, String)> {
+    let (pairs, rest) = bytes.as_chunks();
+    let mut text = String::with_capacity(pairs.len());
+    for letter in char::decode_utf16(pairs.iter().map(|pair| unit(*pair))) {
+        match letter {
+            Ok(letter) => text.push(letter),
+            Err(_) => return Err((line(text.as_bytes()), DAMAGED_UTF16.into())),
+        }
+    }
+    if rest.is_empty() { Ok(text) } else { Err((line(text.as_bytes()), DAMAGED_UTF16.into())) }
+}
+
+const DAMAGED_UTF16: &str = "the file seems to be UTF-16, and is damaged here; save it as UTF-8";
+
+/// The line that follows so much text, from 1.
+fn line(before: &[u8]) -> usize {
+    before.iter().filter(|byte| **byte == b'\n').count() + 1
+}

@@ -1,0 +1,338 @@
+//! What is wrong with the text of a scene file, in the words of the format: the crates that read TOML and
+//! fill structs know of maps, sequences and fields only.
+
+use super::file::Fault;
+use serde::Deserialize;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// How a table of the scene is written.
+#[derive(Clone, Copy, PartialEq)]
+enum Form {
+    /// `[camera]`, once.
+    One,
+    /// `[[sphere]]`, as often as there are spheres.
+    Many,
+    /// `[matte.NAME]`.
+    Named,
+    /// `size = ...`, no table.
+    Value,
+}
+
+/// What can stand at the top of a file.
+const TOP: [(&str, Form); 17] = [
+    ("size", Form::Value),
+    ("max_bounces", Form::Value),
+    ("camera", Form::One),
+    ("view", Form::One),
+    ("background", Form::One),
+    ("ambient", Form::One),
+    ("point", Form::Many),
+    ("directional", Form::Many),
+    ("sphere", Form::Many),
+    ("box", Form::Many),
+    ("triangle", Form::Many),
+    ("plane", Form::Many),
+    ("mesh", Form::Many),
+    ("matte", Form::Named),
+    ("phong", Form::Named),
+    ("mirror", Form::Named),
+    ("emissive", Form::Named),
+];
+
+/// Reads a text into what the format's structs say.
+pub(super) fn read<'de, T: Deserialize<'de>>(text: &'de str) -> Result<T, Fault> {
+    let (document, errors) = DeTable::parse_recoverable(text);
+    let wrong_table = wrong_table(document.get_ref());
+    if let Some(error) = errors.first() {
+        // A second table of this name, say, which the first one should not have been.
+        let repeated = error.message().starts_with("duplicate key");
+        return Err(wrong_table.filter(|_| repeated).unwrap_or_else(|| not_toml(text, error)));
+    }
+    if let Some(fault) = wrong_table {
+        return Err(fault);
+    }
+    let tables = T::deserialize(toml::de::Deserializer::from(document));
+    tables.map_err(|error| not_a_scene(text, &error))
+}
+
+fn form_of(name: &str) -> Option<Form> {
+    TOP.iter().find(|(known, _)| *known == name).map(|(_, form)| *form)
+}
+
+/// How a table is written, with its brackets.
+fn header(name: &str) -> String {
+    match form_of(name) {
+        Some(Form::Many) => format!("[[{name}]]"),
+        Some(Form::Named) => format!("[{name}.NAME]"),
+        Some(Form::Value) => format!("{name} = ..."),
+        Some(Form::One) | None => format!("[{name}]"),
+    }
+}
+
+/// The first table that is written another way than its kind is, or that there is none of.
+fn wrong_table(document: &DeTable<'_>) -> Option<Fault> {
+    let faults = document.iter().filter_map(|(key, value)| {
+        let name = key.get_ref().as_ref();
+        let (span, message) = match form_of(name) {
+            None => (key.span(), unknown_table(name, value.get_ref())),
+            Some(form) => {
+                table_fault(name, form, value).map(|(span, message)| (span.unwrap_or(key.span()), message))?
+            }
+        };
+        Some(Fault { span, message })
+    });
+    faults.min_by_key(|fault| fault.span.start)
+}
+
+/// What is wrong with a table, and where, if not at its name.
+fn table_fault(
+    name: &str,
+    form: Form,
+    value: &Spanned<DeValue<'_>>,
+) -> Option<(Option<std::ops::Range<usize>>, String)> {
+    let right = header(name);
+    let is_table = value.get_ref().is_table();
+    let whole = |message: String| Some((None, message));
+    match (form, value.get_ref()) {
+        (Form::Value, _) => None,
+        (Form::One, _) if is_table => None,
+        (Form::One, DeValue::Array(_)) => {
+            whole(format!("write {right}, with one pair of brackets, for there is one {name}"))
+        }
+        (Form::Many, DeValue::Array(list)) => {
+            let other = list.iter().find(|element| !element.get_ref().is_table())?;
+            Some((Some(other.span()), format!("each {name} is a table; write {right} above its keys")))
+        }
+        (Form::Many, DeValue::Table(_)) => {
+            whole(format!("write {right}, with two pairs of brackets, for there can be many of them"))
+        }
+        (Form::Named, DeValue::Table(named)) => {
+            let is_list = |value: &DeValue<'_>| {
+                value
+                    .as_array()
+                    .is_some_and(|list| list.first().is_some_and(|first| first.get_ref().is_table()))
+            };
+            if named.values().any(|value| !value.get_ref().is_table() && !is_list(value.get_ref())) {
+                return whole(format!("write {right}, for a material needs a name that shapes call it by"));
+            }
+            named.iter().find_map(|(key, material)| match material.get_ref() {
+                DeValue::Table(keys) => checker_fault(keys),
+                _ => Some((
+                    Some(key.span()),
+                    format!(
+                        "write [{name}.{}], with one pair of brackets, for a name stands for one material",
+                        key.get_ref()
+                    ),
+                )),
+            })
+        }
+        (Form::Named, DeValue::Array(_)) => {
+            whole(format!("write {right}, with one pair of brackets, in which the material's name stands"))
+        }
+        _ => whole(format!("{name} is a table; write {right} above its keys")),
+    }
+}
+
+/// A list of what a checker's table has would be taken for it.
+fn checker_fault(keys: &DeTable<'_>) -> Option<(Option<std::ops::Range<usize>>, String)> {
+    let color = keys.iter().find(|(key, _)| key.get_ref() == "color").map(|(_, value)| value)?;
+    let list = color.get_ref().as_array()?;
+    list.iter()
+        .any(|part| part.get_ref().is_array())
+        .then(|| (Some(color.span()), format!("color must be {COLOR_OR_CHECKER}")))
+}
+
+fn unknown_table(name: &str, value: &DeValue<'_>) -> String {
+    // [scene.sphere], say.
+    let inner = match value {
+        DeValue::Table(table) => Some(table),
+        DeValue::Array(list) => list.first().and_then(|first| first.get_ref().as_table()),
+        _ => None,
+    };
+    let inner = inner.and_then(|table| table.iter().find(|(key, _)| form_of(key.get_ref()).is_some()));
+    if let Some((key, _)) = inner {
+        return format!("there is no {name} to put tables into; write {}", header(key.get_ref()));
+    }
+    let near = |known: &str| strsim::jaro_winkler(&known.to_lowercase(), &name.to_lowercase()) > 0.8;
+    if let Some((near, _)) = TOP.iter().find(|(known, _)| near(known)) {
+        return format!("there is no '{name}'; did you mean {}?", header(near));
+    }
+    let known: Vec<String> = TOP.iter().map(|(known, _)| header(known)).collect();
+    format!("there is no '{name}'; there are: {}", known.join(", "))
+}
+
+const THREE_NUMBERS: &str = "three numbers, [x, y, z]";
+const COLOR: &str = "a colour, three numbers [r, g, b]";
+const COLOR_OR_CHECKER: &str = "[r, g, b], or { even = [r, g, b], odd = [r, g, b], size = EDGE }";
+
+/// What belongs to a key.
+fn value_of(table: Option<&str>, key: &str) -> &'static str {
+    match (table, key) {
+        (None, "size") => "[width, height], two whole numbers of pixels",
+        (Some("matte" | "phong"), "color") => COLOR_OR_CHECKER,
+        (_, "color" | "horizon" | "zenith" | "even" | "odd") => COLOR,
+        (
+            _,
+            "eye" | "look_at" | "up" | "center" | "velocity" | "lower" | "upper" | "point" | "normal"
+            | "position" | "direction" | "rotate_degrees",
+        ) => THREE_NUMBERS,
+        (_, "vertices") => "three corners, [[x, y, z], [x, y, z], [x, y, z]]",
+        (_, "material" | "file" | "preset" | "model" | "overlay" | "aperture_image") => {
+            "a name in quotes, such as \"name\""
+        }
+        (_, "shadows" | "upright" | "exposure_lock") => "true or false, without quotes",
+        (_, "blades" | "max_bounces") => "a whole number, 0 or more",
+        _ => "a number",
+    }
+}
+
+/// What a value is.
+fn kind_of(value: &DeValue<'_>) -> String {
+    match value {
+        DeValue::String(text) => format!("the text \"{text}\""),
+        DeValue::Integer(number) => format!("the number {}", number.as_str()),
+        DeValue::Float(number) => format!("the number {}", number.as_str()),
+        DeValue::Boolean(value) => value.to_string(),
+        DeValue::Datetime(_) => "a date or a time".into(),
+        DeValue::Array(list) => match list.len() {
+            0 => "an empty list".into(),
+            1 => "a list of one".into(),
+            length => format!("a list of {length}"),
+        },
+        DeValue::Table(_) => "a table".into(),
+    }
+}
+
+/// Tables and keys that lead to a place of the text, and the value there.
+struct Place<'a> {
+    keys: Vec<&'a str>,
+    value: Option<&'a DeValue<'a>>,
+}
+
+/// The innermost thing around a place.
+fn place<'a>(table: &'a DeTable<'a>, at: usize) -> Option<Place<'a>> {
+    table.iter().find_map(|(key, value)| {
+        let here = || Place { keys: Vec::new(), value: Some(value.get_ref()) };
+        let inner = place_in(value, at).or_else(|| key.span().contains(&at).then(here))?;
+        Some(Place { keys: [vec![key.get_ref().as_ref()], inner.keys].concat(), ..inner })
+    })
+}
+
+fn place_in<'a>(value: &'a Spanned<DeValue<'a>>, at: usize) -> Option<Place<'a>> {
+    let inner = match value.get_ref() {
+        DeValue::Table(table) => place(table, at),
+        DeValue::Array(list) => list.iter().find_map(|element| place_in(element, at)),
+        _ => None,
+    };
+    let here = || Place { keys: Vec::new(), value: Some(value.get_ref()) };
+    inner.or_else(|| value.span().contains(&at).then(here))
+}
+
+/// A text that is TOML, but not what the format's structs want.
+fn not_a_scene(text: &str, error: &toml::de::Error) -> Fault {
+    let span = error.span().unwrap_or(0..0);
+    let (document, _) = DeTable::parse_recoverable(text);
+    let Place { keys, value } =
+        place(document.get_ref(), span.start).unwrap_or(Place { keys: Vec::new(), value: None });
+    let message = error.message();
+    let mut quoted = message.split('`').skip(1).step_by(2);
+    let message = if message.starts_with("missing field") {
+        let key = quoted.next().unwrap_or_default();
+        match keys.first() {
+            Some(table) => format!("{} needs {key}, {}", titled(&keys), value_of(Some(table), key)),
+            None => format!("the scene needs {}", header(key)),
+        }
+    } else if message.starts_with("unknown field") {
+        let key = quoted.next().unwrap_or_default();
+        let known: Vec<&str> = quoted.collect();
+        let near = known.iter().find(|known| strsim::jaro_winkler(known, key) > 0.8);
+        let hint = near
+            .map_or_else(|| format!("it has: {}", known.join(", ")), |near| format!("did you mean {near}?"));
+        // The place is the unknown key itself.
+        format!("{} has no key {key}; {hint}", titled(&keys[..keys.len().saturating_sub(1)]))
+    } else if message.starts_with("invalid") || message.contains("overflow") {
+        let key = keys.last().copied().unwrap_or_default();
+        let table = keys.first().copied().filter(|_| keys.len() > 1);
+        let found = value.map_or_else(String::new, |value| format!("; here is {}", kind_of(value)));
+        format!("{key} must be {}{found}", value_of(table, key))
+    } else {
+        message.replace('\n', "; ")
+    };
+    Fault { span, message }
+}
+
+/// A table by its header.
+fn titled(keys: &[&str]) -> String {
+    match keys {
+        [] => "the scene".into(),
+        [table] => header(table),
+        [kind, name, inner @ ..] if form_of(kind) == Some(Form::Named) => match inner.last() {
+            None => format!("[{kind}.{name}]"),
+            Some(key) => (*key).into(),
+        },
+        [.., key] => (*key).into(),
+    }
+}
+
+/// A text that is no TOML.
+fn not_toml(text: &str, error: &toml::de::Error) -> Fault {
+    let message = error.message();
+    if message.contains("recurs") {
+        // Where is not said: at the deepest line.
+        let depth = |line: &str| line.matches(['.', '[', '{']).count();
+        let deepest = text.split_inclusive('\n').scan(0, |end, line| {
+            *end += line.len();
+            Some((depth(line), *end - line.len()))
+        });
+        // The first of them.
+        let at =
+            deepest.reduce(|best, line| if line.0 > best.0 { line } else { best }).map_or(0, |line| line.1);
+        let message = "tables or lists are nested too deep here; a scene nests three deep at most".into();
+        return Fault { span: at..at, message };
+    }
+    let span = error.span().unwrap_or(0..0);
+    let (end, word) = word_at(text, span.start);
+    let numeric = |first: char| first.is_ascii_digit() || "+-.".contains(first);
+    let is_number = word.starts_with(numeric);
+    // The space between a date and a time is allowed, which hides a comma that is missing.
+    let next = text[end..].trim_start_matches([' ', '\t']);
+    let two_numbers = is_number && next.len() < text.len() - end && next.starts_with(numeric);
+    let message = match message {
+        _ if message.starts_with("duplicate key") => {
+            format!("'{word}' is here for the second time; leave one of them out")
+        }
+        _ if message.starts_with("missing comma") || two_numbers => {
+            "here a comma is missing between two parts of a list, or the bracket at its end".into()
+        }
+        _ if message.starts_with("key with no value") || message.starts_with("missing assignment") => {
+            "a line is a table's header, or a key, = and its value, or a comment after #".into()
+        }
+        _ if message.starts_with("string values must be quoted") && word.is_empty() => {
+            "here a value is missing".into()
+        }
+        _ if is_number => format!("'{word}' is no number; one is written like 0.5, -2 or 1e-3"),
+        _ if message.starts_with("string values must be quoted") => {
+            format!("a name stands in quotes: \"{word}\"")
+        }
+        _ if message.starts_with("invalid unquoted key") => {
+            "a name with other signs than a-z, 0-9, - and _ stands in quotes, as in [matte.\"dark red\"]"
+                .into()
+        }
+        _ if message.starts_with("invalid boolean") => "write true or false, in small letters".into(),
+        other => format!("this is no TOML: {}", other.replace('\n', "; ")),
+    };
+    Fault { span, message }
+}
+
+/// Where the word ends that stands there between blanks, commas and brackets, and the word.
+fn word_at(text: &str, at: usize) -> (usize, &str) {
+    let ends = |letter: char| letter.is_whitespace() || "[]{}=,#\"'".contains(letter);
+    let mut at = at.min(text.len());
+    while !text.is_char_boundary(at) {
+        at -= 1;
+    }
+    let start = text[..at].rfind(ends).map_or(0, |end| end + 1);
+    let end = text[at..].find(ends).map_or(text.len(), |end| at + end);
+    (end, text.get(start..end).unwrap_or_default())
+}
