@@ -223,3 +223,26 @@ fn from_afar_no_child_is_met_that_is_not_there() {
     };
     prove(check, &["tree_children_that_are_not_there"]);
 }
+
+/// Catches a picture whose f32 are too coarse and that nobody is warned of, and a warning where all is well.
+#[test]
+fn a_warning_says_where_f32_is_too_coarse() {
+    let near_by = |place: Place| still_life(place).estimator.too_coarse();
+    for place in [
+        HERE,
+        Place { distance: 11_000.0, ..HERE },
+        Place { at: dvec3(500_000.3, 4100.25, -4_500_000.7), ..HERE },
+        Place { unit: 1e-3, ..HERE },
+    ] {
+        assert_eq!(near_by(place), None, "{place:?}");
+    }
+    assert!(
+        near_by(Place { distance: 1e8, ..HERE })
+            .is_some_and(|warning| warning.contains("the middle of the scene"))
+    );
+    // The camera flies off to another country.
+    let mut settings = still_life(HERE);
+    settings.estimator.camera.eye += dvec3(0.0, 0.0, 3e6);
+    settings.estimator.camera.look_at += dvec3(0.0, 0.0, 3e6);
+    assert!(settings.estimator.too_coarse().is_some());
+}

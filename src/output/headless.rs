@@ -109,6 +109,9 @@ fn render_on(instance: &Arc<Instance>, job: &Job, format: PictureFormat) -> Resu
         None => job.settings.clone(),
     };
     renderer.set(&settings)?;
+    if let Some(warning) = settings.estimator.too_coarse() {
+        log::warn!("{warning}");
+    }
 
     let pixels = u64::from(width) * u64::from(height);
     let mut display = ProgressDisplay::new(settings.samples, pixels, job.quiet);

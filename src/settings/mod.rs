@@ -118,6 +118,26 @@ impl Estimator {
         self.camera.f_number(self.lens.diameter)
     }
 
+    /// What to warn of where f32 is too coarse for the picture: a device computes with it, seen from the middle of
+    /// the scene, and its steps would be seen where they are larger than a quarter of a pixel.
+    pub fn too_coarse(&self) -> Option<String> {
+        let camera = &self.camera;
+        let from_middle = camera.eye.distance(self.scene.middle());
+        let seen = match self.model {
+            CameraModel::ThinLens => f64::from(self.lens.focal_distance),
+            CameraModel::Pinhole | CameraModel::Hole => camera.eye.distance(camera.look_at),
+        };
+        let pixel = seen / camera.view_distance_pixels(self.size[1]);
+        let step = from_middle.max(seen) * f64::from(f32::EPSILON);
+        (step > 0.25 * pixel).then(|| {
+            format!(
+                "places are known to {step:.1e} only, {from_middle:.1e} from the middle of the scene, but a pixel is \
+                 {pixel:.1e} wide where it is sharp: edges and shadows will be ragged; put things nearer together, or \
+                 the camera nearer to them"
+            )
+        })
+    }
+
     /// Puts a lens that people know in front of the camera.
     pub fn take_preset(&mut self, preset: &Preset) {
         preset.apply(&mut self.camera, &mut self.model, &mut self.lens);

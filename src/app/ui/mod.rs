@@ -141,7 +141,7 @@ impl Panel {
             recent: options.memory.recent.clone(),
             files: Files::default(),
             reopen: options.reopen,
-            message: options.message.clone(),
+            message: options.message.clone().or_else(|| options.settings.estimator.too_coarse()),
             optics: Optics { open: options.memory.optics, ..Optics::default() },
             held: None,
             paused: false,
@@ -349,7 +349,7 @@ impl Panel {
                 self.max_points = self.max_points.max(settings.samples);
                 self.image = settings.estimator.aperture.image.clone().or(self.image.take());
                 self.settings = settings;
-                self.message = None;
+                self.message = self.settings.estimator.too_coarse();
                 self.offer_scene();
                 if builtin(name).is_none() {
                     self.remember(name);
