@@ -40,7 +40,7 @@ fn sliders_change_what_is_rendered() {
     viewer.expect_picture("more points", 1, &["-n", &points, "--lens-diameter", "0"]);
 
     // At rest the device is idle: no frame is drawn.
-    while viewer.listen(Duration::from_millis(500)).is_some() {}
+    viewer.rest();
     assert!(viewer.listen(Duration::from_secs(1)).is_none(), "it draws for nobody");
 
     // Reset, then one centre ray a pixel.
@@ -53,8 +53,7 @@ fn sliders_change_what_is_rendered() {
     viewer.expect_picture("one centre ray", 0, &["-n", "8", "--jitter", "0"]);
 
     // Another size of the window.
-    viewer.size = [640, 400];
-    viewer.xdotool("search --class thinlens windowsize 640 400");
+    viewer.resize([640, 400]);
     viewer.expect_picture("a smaller window", 0, &["-n", "8", "--jitter", "0"]);
     viewer.close();
 }
