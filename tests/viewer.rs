@@ -2,7 +2,8 @@
 
 mod common;
 
-use common::viewer::{Viewer, difference};
+use common::viewer::{Server, Viewer, difference};
+use common::{Run, thinlens};
 use std::time::Duration;
 
 /// Catches sliders that are not connected, or to something else; a picture that the screen shows in
@@ -56,6 +57,25 @@ fn sliders_change_what_is_rendered() {
     viewer.resize([640, 400]);
     viewer.expect_picture("a smaller window", 0, &["-n", "8", "--jitter", "0"]);
     viewer.close();
+}
+
+/// Catches a machine without a driver that is told of an extension, for without drivers all that windows need are
+/// missing.
+#[test]
+fn a_missing_driver_is_told_as_what_it_is() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let server = Server::start();
+    let nowhere = folder.path().join("none.json");
+    let output = thinlens(folder.path())
+        .args(["view", "--size", "80x60"])
+        .env("DISPLAY", &server.display)
+        .env("XDG_STATE_HOME", folder.path())
+        .env("VK_DRIVER_FILES", &nowhere)
+        .env("VK_ICD_FILENAMES", &nowhere)
+        .output();
+    let run: Run = output.expect("it starts").into();
+    assert_eq!(run.code, 1, "{}", run.stderr);
+    assert!(run.stderr.contains("no driver is installed"), "{}", run.stderr);
 }
 
 /// Catches a film of the last scene under the name of the next one, and an exit in the middle of

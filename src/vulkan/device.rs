@@ -71,12 +71,7 @@ impl Instance {
             .enumerate()
             .map(|(index, raw)| self.describe(index, raw, surface))
             .collect::<Result<_>>()?;
-        let names: Vec<_> = devices.iter().map(|device| device.name.clone()).collect();
-        for device in &mut devices {
-            if names.iter().filter(|name| **name == device.name).count() == 1 {
-                device.uuid = None;
-            }
-        }
+        keep_needed_uuids(&mut devices);
         Ok(devices)
     }
 
@@ -345,6 +340,13 @@ impl Drop for Device {
     }
 }
 
+/// A device's UUID tells it apart from others of its name, and is of no use elsewhere.
+fn keep_needed_uuids(devices: &mut [DeviceInfo]) {
+    let names: Vec<_> = devices.iter().map(|device| device.name.clone()).collect();
+    let alone = |device: &DeviceInfo| names.iter().filter(|name| **name == device.name).count() == 1;
+    devices.iter_mut().filter(|device| alone(device)).for_each(|device| device.uuid = None);
+}
+
 fn choose<'a>(devices: &'a [DeviceInfo], wanted: Option<&str>) -> Result<&'a DeviceInfo> {
     let Some(wanted) = wanted else {
         let usable = devices.iter().filter(|device| device.unusable.is_none());
@@ -386,4 +388,28 @@ fn extensions(instance: &Instance, device: vk::PhysicalDevice) -> Result<Vec<CSt
 
 fn text(name: Result<&CStr, std::ffi::FromBytesUntilNulError>) -> String {
     name.unwrap_or(c"?").to_string_lossy().into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Catches two devices of one name that a list does not tell apart.
+    #[test]
+    fn devices_of_one_name_keep_their_uuids() {
+        let named = |name: &str, uuid: &str| DeviceInfo {
+            index: 0,
+            name: name.into(),
+            kind: SOFTWARE,
+            driver: String::new(),
+            uuid: Some(uuid.into()),
+            unusable: None,
+            rank: 3,
+            raw: vk::PhysicalDevice::null(),
+            queue_family: 0,
+        };
+        let mut devices = [named("twin", "01"), named("other", "02"), named("twin", "03")];
+        keep_needed_uuids(&mut devices);
+        assert_eq!(devices.map(|device| device.uuid), [Some("01".into()), None, Some("03".into())]);
+    }
 }

@@ -41,6 +41,28 @@ impl Drop for Killed {
     }
 }
 
+/// A display that nobody sees.
+pub struct Server {
+    process: Killed,
+    pub display: String,
+}
+
+impl Server {
+    pub fn start() -> Self {
+        let mut process = Command::new("Xvfb")
+            .args(["-displayfd", "1", "-screen", "0", "1280x1024x24", "-nolisten", "tcp"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .map(Killed)
+            .expect("Xvfb, which setup.sh installs");
+        let mut number = String::new();
+        let out = process.0.stdout.take().expect("piped");
+        BufReader::new(out).read_line(&mut number).expect("Xvfb says its display");
+        Self { process, display: format!(":{}", number.trim()) }
+    }
+}
+
 /// A viewer with a display of its own.
 pub struct Viewer {
     program: Killed,
@@ -101,18 +123,7 @@ impl Viewer {
 
     /// Likewise, in this folder, whose window must come out in this size.
     pub fn start_in(folder: &Path, size: [u16; 2], arguments: &[&str]) -> Self {
-        let mut server = Command::new("Xvfb")
-            .args(["-displayfd", "1", "-screen", "0", "1280x1024x24", "-nolisten", "tcp"])
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn()
-            .map(Killed)
-            .expect("Xvfb, which setup.sh installs");
-        let mut number = String::new();
-        let out = server.0.stdout.take().expect("piped");
-        BufReader::new(out).read_line(&mut number).expect("Xvfb says its display");
-        let display = format!(":{}", number.trim());
-
+        let Server { process: server, display } = Server::start();
         let mut program = Command::new(env!("CARGO_BIN_EXE_thinlens"))
             .arg("view")
             .args(arguments)
