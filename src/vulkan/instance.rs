@@ -1,6 +1,6 @@
 //! The loader, the instance, and the validation messenger.
 
-use super::validation::{FEATURES, LAYER, Messages, Watch, settings};
+use super::validation::{FEATURES, LAYER, Messages, settings, watches};
 use super::{check, loader_changes};
 use crate::error::{Error, Result};
 use ash::{ext, khr, vk};
@@ -30,7 +30,7 @@ impl Instance {
         let entry = unsafe { ash::Entry::load() }.map_err(|error| Error::NoLoader(error.to_string()))?;
         let mut offered = extensions(&entry, None)?;
         let mut layers = Vec::new();
-        let mut watch = None;
+        let mut watch = Vec::new();
         if validation {
             if !has_layer(&entry)? {
                 return Err(Error::NoValidationLayer);
@@ -40,8 +40,8 @@ impl Instance {
             if !of_layer.iter().any(|name| name.as_c_str() == ext::debug_utils::NAME) {
                 return Err(Error::NoValidationLayer);
             }
-            watch = Watch::offered(&of_layer);
-            if watch.is_none() {
+            watch = watches(&of_layer);
+            if watch.is_empty() {
                 log::warn!(
                     "the validation layer installed here cannot watch synchronization, so a missing barrier goes \
                      unseen; a newer package vulkan-validationlayers can"
@@ -64,7 +64,7 @@ impl Instance {
             if has(name) { wanted.push(name.as_ptr()) } else { missing.push(name.to_string_lossy()) }
         }
         wanted.extend(optional.iter().filter(|name| has(name)).map(|name| name.as_ptr()));
-        wanted.extend(watch.map(|watch| watch.extension().as_ptr()));
+        wanted.extend(watch.iter().map(|name| name.as_ptr()));
         let flags = if has(khr::portability_enumeration::NAME) {
             // Without it, MoltenVK stays hidden.
             vk::InstanceCreateFlags::ENUMERATE_PORTABILITY_KHR
@@ -85,11 +85,12 @@ impl Instance {
             .enabled_extension_names(&wanted)
             .enabled_layer_names(&layers)
             .flags(flags);
-        info = match watch {
-            Some(Watch::Settings) => info.push_next(&mut settings),
-            Some(Watch::Features) => info.push_next(&mut features),
-            None => info,
-        };
+        if watch.contains(&ext::layer_settings::NAME) {
+            info = info.push_next(&mut settings);
+        }
+        if watch.contains(&ext::validation_features::NAME) {
+            info = info.push_next(&mut features);
+        }
         if validation {
             info = info.push_next(&mut messenger);
         }
@@ -109,7 +110,7 @@ impl Instance {
             entry,
             messenger: None,
             debug_utils,
-            watches_synchronization: watch.is_some(),
+            watches_synchronization: !watch.is_empty(),
             messages,
         };
         // Only now is it known that there is a driver at all.

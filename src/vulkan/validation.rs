@@ -7,38 +7,23 @@ use std::sync::{Mutex, PoisonError};
 
 pub(super) const LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
 
-/// How the layer is asked to watch synchronization: hazards between commands, on top of its usual checks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Watch {
-    /// By [`settings`].
-    Settings,
-    /// By [`FEATURES`], where the layer knows no settings.
-    Features,
+/// The layer's extensions by which it is asked to watch synchronization: hazards between commands, on top of its usual
+/// checks. Layers have the one, the other, or both; where there are both, an earlier layer may know less by the first.
+const WATCHES: [&CStr; 2] = [ext::layer_settings::NAME, ext::validation_features::NAME];
+
+/// Those of [`WATCHES`] among a layer's extensions. With none, it cannot be asked.
+pub(super) fn watches(extensions: &[CString]) -> Vec<&'static CStr> {
+    WATCHES.into_iter().filter(|name| extensions.iter().any(|offered| offered.as_c_str() == *name)).collect()
 }
 
-/// The older way. What shaders access is watched along with the rest.
+/// For `VK_EXT_validation_features`.
 pub(super) const FEATURES: [vk::ValidationFeatureEnableEXT; 1] =
     [vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
 
-/// The newer way. What shaders access through descriptors has a setting of its own, which is off by default:
-/// without it, no hazard between two dispatches is seen.
+/// For `VK_EXT_layer_settings`. Layers from 1.3.290 on have a setting of its own for what shaders access through
+/// descriptors, which is off by default: without it, no hazard between two dispatches is seen.
 const SETTINGS: [&CStr; 3] =
     [c"validate_sync", c"syncval_shader_accesses_heuristic", c"syncval_submit_time_validation"];
-
-impl Watch {
-    /// The better one of those that a layer's extensions offer.
-    pub(super) fn offered(extensions: &[CString]) -> Option<Self> {
-        let has = |watch: &Self| extensions.iter().any(|name| name.as_c_str() == watch.extension());
-        [Self::Settings, Self::Features].into_iter().find(has)
-    }
-
-    pub(super) fn extension(self) -> &'static CStr {
-        match self {
-            Self::Settings => ext::layer_settings::NAME,
-            Self::Features => ext::validation_features::NAME,
-        }
-    }
-}
 
 /// All of [`SETTINGS`], on.
 pub(super) fn settings() -> [vk::LayerSettingEXT<'static>; SETTINGS.len()] {
@@ -111,15 +96,14 @@ mod tests {
     /// Catches a layer that is asked in a way that it does not offer, which fails the instance, and one that is
     /// said to watch synchronization but was never asked to.
     #[test]
-    fn a_layer_is_asked_in_a_way_that_it_offers() {
-        let offered = |names: &[&CStr]| {
-            Watch::offered(&names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>())
-        };
+    fn a_layer_is_asked_in_the_ways_that_it_offers() {
+        let asked =
+            |names: &[&CStr]| watches(&names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>());
         let (settings, features) = (ext::layer_settings::NAME, ext::validation_features::NAME);
-        assert_eq!(offered(&[ext::debug_utils::NAME]), None);
-        assert_eq!(offered(&[ext::debug_utils::NAME, features]), Some(Watch::Features));
-        assert_eq!(offered(&[features, settings]), Some(Watch::Settings));
-        assert_eq!(offered(&[settings]), Some(Watch::Settings));
+        assert!(asked(&[ext::debug_utils::NAME]).is_empty());
+        assert_eq!(asked(&[ext::debug_utils::NAME, features]), [features]);
+        assert_eq!(asked(&[features, settings]), [settings, features]);
+        assert_eq!(asked(&[settings]), [settings]);
     }
 
     /// Catches a message that does not say which rule was broken, or says it twice.
