@@ -16,10 +16,10 @@ pub enum Error {
          vulkan-loader or vulkan-icd-loader"
     )]
     NoLoader(String),
-    /// The Khronos validation layer is not installed.
+    /// The Khronos validation layer is not installed, or is one that cannot report what it sees.
     #[error(
-        "validation was asked for, but the layer VK_LAYER_KHRONOS_validation is not installed; install \
-         it (./setup.sh, or the package vulkan-validationlayers), or leave out --validation"
+        "validation was asked for, but the layer VK_LAYER_KHRONOS_validation with VK_EXT_debug_utils is not \
+         installed; install it (./setup.sh, or the package vulkan-validationlayers), or leave out --validation"
     )]
     NoValidationLayer,
     /// No device can run the renderer. Holds why each one was passed over.
@@ -49,6 +49,23 @@ pub enum Error {
     Memory {
         /// What it was for.
         what: &'static str,
+    },
+    /// A scene has more of something than there can be, however much memory there is.
+    #[error(
+        "{what} would take {wanted} {unit}, but can have {most} at most ({limit}); use fewer shapes or smaller \
+         images, or try another device (thinlens devices)"
+    )]
+    Limit {
+        /// What it was for.
+        what: &'static str,
+        /// What is counted.
+        unit: &'static str,
+        /// How many it would take.
+        wanted: u64,
+        /// How many there can be.
+        most: u64,
+        /// Which limit that is.
+        limit: &'static str,
     },
     /// The device that was asked for cannot be used.
     #[error("cannot use {0}; choose another one: thinlens devices")]

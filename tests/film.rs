@@ -4,9 +4,10 @@ mod common;
 
 use common::{Gpu, bits, film, render, settings_of, small};
 use std::time::Duration;
+use thinlens::passes::Shaders;
 use thinlens::renderer::{Pace, Renderer};
 use thinlens::settings::{Sampler, Settings};
-use thinlens::vulkan::Commands;
+use thinlens::vulkan::{Commands, Shader};
 
 /// Catches a focal distance that leaks into the pinhole: with no lens there is nothing to focus.
 #[test]
@@ -194,16 +195,22 @@ fn many_shapes_lose_no_samples() {
         settings.samples = 8;
         thinlens::verify::verify(&mut renderer, &settings).unwrap_or_else(|error| panic!("{error}"));
     }
+}
 
-    // More than a software device can do is refused; a GPU has no such limit. A tree bounds what balls
-    // cost a ray, but nothing does for planes.
-    let refused = renderer.set(&planes(33_000));
-    if gpu.device().info().kind == thinlens::vulkan::SOFTWARE {
-        let error = refused.expect_err("too many for software");
-        assert!(error.to_string().contains("fewer planes"), "{error}");
-    } else {
-        refused.expect("a GPU has no such limit");
+/// Catches a scene that is compiled before it is refused: the driver may end the program over it. More than a
+/// software device can do is refused. A tree bounds what balls cost a ray, but nothing does for planes.
+#[test]
+fn what_needs_too_many_steps_is_refused_before_it_is_compiled() {
+    let gpu = Gpu::new();
+    if gpu.device().info().kind != thinlens::vulkan::SOFTWARE {
+        return; // A GPU has no such limit.
     }
+    // No driver is given this.
+    let trace = Shader { name: "trace", spirv: &[] };
+    let shaders = Shaders { trace, ..Shaders::default() };
+    let mut renderer = Renderer::with_shaders(gpu.device(), shaders).expect("a renderer");
+    let error = renderer.set(&planes(33_000)).expect_err("too many for software");
+    assert!(error.to_string().contains("fewer planes"), "{error}");
 }
 
 /// Catches a search of the tree that is cut short and taken for a miss. Thousands of triangles, of which

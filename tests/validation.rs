@@ -7,7 +7,7 @@ use std::sync::Arc;
 use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush, estimator_constants};
 use thinlens::passes::{Accumulate, Adaptive, BlueNoiseTile, Opening, SceneBuffers, Trace};
 use thinlens::renderer::schedule::Pass;
-use thinlens::vulkan::{Buffer, Commands, Image, Residence};
+use thinlens::vulkan::{Buffer, Commands, Image, Instance, Residence};
 
 /// Catches a layer that is asked for but not on: a copy beyond a buffer's end must be reported.
 #[test]
@@ -81,6 +81,25 @@ fn a_missing_barrier_between_trace_and_accumulate_is_caught() {
 #[test]
 fn the_barrier_between_trace_and_accumulate_is_enough() {
     record_two_passes(&Gpu::new(), true);
+}
+
+/// Catches objects that are named while another thread makes or unmakes an instance or lists its devices: the
+/// loader then reads lists that it is just freeing, and ends the process. Loaders from about 1.3.280 on do.
+#[test]
+fn objects_are_named_while_instances_come_and_go() {
+    let gpu = Gpu::new();
+    std::thread::scope(|scope| {
+        let others = scope.spawn(|| {
+            for _ in 0..40 {
+                let instance = Instance::new(false, None).expect("an instance");
+                assert!(!instance.devices(None).expect("a list").is_empty());
+            }
+        });
+        while !others.is_finished() {
+            Buffer::new(gpu.device(), "named", 64, Residence::Device).expect("a buffer");
+        }
+        others.join().expect("instances");
+    });
 }
 
 /// Catches a program that asks for validation and goes on without it.

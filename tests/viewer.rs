@@ -2,7 +2,8 @@
 
 mod common;
 
-use common::viewer::{Viewer, difference};
+use common::viewer::{Server, Viewer, difference};
+use common::{Run, thinlens};
 use std::time::Duration;
 
 /// Catches sliders that are not connected, or to something else; a picture that the screen shows in
@@ -40,7 +41,7 @@ fn sliders_change_what_is_rendered() {
     viewer.expect_picture("more points", 1, &["-n", &points, "--lens-diameter", "0"]);
 
     // At rest the device is idle: no frame is drawn.
-    while viewer.listen(Duration::from_millis(500)).is_some() {}
+    viewer.rest();
     assert!(viewer.listen(Duration::from_secs(1)).is_none(), "it draws for nobody");
 
     // Reset, then one centre ray a pixel.
@@ -53,10 +54,28 @@ fn sliders_change_what_is_rendered() {
     viewer.expect_picture("one centre ray", 0, &["-n", "8", "--jitter", "0"]);
 
     // Another size of the window.
-    viewer.size = [640, 400];
-    viewer.xdotool("search --class thinlens windowsize 640 400");
+    viewer.resize([640, 400]);
     viewer.expect_picture("a smaller window", 0, &["-n", "8", "--jitter", "0"]);
     viewer.close();
+}
+
+/// Catches a machine without a driver that is told of an extension, for without drivers all that windows need are
+/// missing.
+#[test]
+fn a_missing_driver_is_told_as_what_it_is() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let server = Server::start();
+    let nowhere = folder.path().join("none.json");
+    let output = thinlens(folder.path())
+        .args(["view", "--size", "80x60"])
+        .env("DISPLAY", &server.display)
+        .env("XDG_STATE_HOME", folder.path())
+        .env("VK_DRIVER_FILES", &nowhere)
+        .env("VK_ICD_FILENAMES", &nowhere)
+        .output();
+    let run: Run = output.expect("it starts").into();
+    assert_eq!(run.code, 1, "{}", run.stderr);
+    assert!(run.stderr.contains("no driver is installed"), "{}", run.stderr);
 }
 
 /// Catches a film of the last scene under the name of the next one, and an exit in the middle of

@@ -60,21 +60,16 @@ fn the_camera_follows_the_hand() {
         let notches = (distance(*viewer.camera.borrow()) / distance(panned)).ln() / 0.9_f32.ln();
         notches > 0.5 && (notches - notches.round()).abs() < 0.01
     };
-    viewer.until("the wheel", near, || {
-        viewer.xdotool("mousemove 600 400");
-        viewer.xdotool("click 4");
-    });
+    viewer.until("the wheel", near, || viewer.wheel([600, 400], 0));
     let nearer = now();
     assert_eq!(nearer[3..], panned[3..], "the wheel looks elsewhere");
 
     let flown =
         |viewer: &Viewer| distance(*viewer.camera.borrow()) > 0.0 && *viewer.camera.borrow() != nearer;
     viewer.until("flying", flown, || {
-        viewer.xdotool("search --class thinlens windowfocus --sync keydown w");
-        viewer.frames(4);
-        viewer.xdotool("keyup w");
+        viewer.hands("search --class thinlens windowfocus --sync keydown w", 1);
+        viewer.hands("keyup w", 0);
     });
-    while viewer.listen(Duration::from_millis(300)).is_some() {}
     let flown = now();
     assert!(
         (distance(flown) / distance(nearer) - 1.0).abs() < 1e-3,
@@ -94,7 +89,7 @@ fn the_camera_follows_the_hand() {
 /// leaves to be redone.
 #[test]
 fn changes_are_undone_and_made_again() {
-    let viewer = Viewer::start(SIZE, &QUICK);
+    let mut viewer = Viewer::start(SIZE, &QUICK);
     viewer.wait_until_done();
     let [diameter, focal_distance, _] = *viewer.state.borrow();
     let camera = *viewer.camera.borrow();
@@ -110,8 +105,7 @@ fn changes_are_undone_and_made_again() {
     let turned = *viewer.camera.borrow();
 
     // Another size is no change, and keeps none from being undone.
-    viewer.xdotool("search --class thinlens windowsize 790 700");
-    viewer.wait_for("another size", |viewer| viewer.last_shown.borrow().contains("of 790x700"));
+    viewer.resize([790, 700]);
     viewer.until("undo", |viewer| *viewer.camera.borrow() == camera, || viewer.press("ctrl+z"));
     assert_eq!(viewer.state.borrow()[0], wide, "two changes at once");
     viewer.until("undo", |viewer| viewer.state.borrow()[0] == diameter, || viewer.press("ctrl+z"));
@@ -124,8 +118,7 @@ fn changes_are_undone_and_made_again() {
         viewer.state.borrow()[1] > 1.1 * focal_distance
     });
     viewer.press("ctrl+y");
-    viewer.frames(2);
-    while viewer.listen(Duration::from_millis(300)).is_some() {}
+    viewer.rest();
     assert_eq!(*viewer.camera.borrow(), camera, "what was undone before a change is made again");
     viewer.close();
 }
@@ -216,20 +209,14 @@ fn what_is_saved_renders_again() {
         "saving",
         |_| next.exists(),
         || {
-            viewer.xdotool("search --class thinlens windowfocus --sync keydown ctrl keydown s keyup ctrl");
-            viewer.frames(6);
-            viewer.xdotool("keyup s");
+            viewer.hands("search --class thinlens windowfocus --sync keydown ctrl keydown s keyup ctrl", 1);
+            viewer.hands("keyup s", 0);
         },
     );
     assert_eq!(*viewer.camera.borrow(), placed, "Ctrl+S moves the camera");
 
-    viewer.press("ctrl+c");
-    let line = loop {
-        let line = viewer.listen(Duration::from_secs(10)).expect("it says what it copied");
-        if let Some((_, line)) = line.split_once("copied ") {
-            break line.to_owned();
-        }
-    };
+    viewer.until("copying", |viewer| viewer.copied.borrow().is_some(), || viewer.press("ctrl+c"));
+    let line = viewer.copied.take().expect("a line");
     let pasted = Command::new("xclip")
         .args(["-o", "-selection", "clipboard"])
         .env("DISPLAY", &viewer.display)
@@ -352,9 +339,8 @@ fn the_optics_are_those_of_the_pixel_that_was_clicked() {
         "clicking",
         |viewer| viewer.diagram.borrow().is_some_and(|(pixel, _)| pixel == [650.5, 201.5]),
         || {
-            viewer.xdotool("mousemove 650 201");
-            viewer.frames(3);
-            viewer.xdotool("click 1");
+            viewer.point([650, 201]);
+            viewer.hands("click 1", 0);
         },
     );
     viewer.drag("Focal plane distance", &[0.5, 0.55, 0.6], |viewer| {
@@ -370,7 +356,7 @@ fn the_optics_are_those_of_the_pixel_that_was_clicked() {
 fn it_pauses_and_says_its_keys() {
     let viewer = Viewer::start(SIZE, &["-n", "2048"]);
     viewer.until("a pause", |viewer| viewer.controls.borrow().contains_key("Go on"), || viewer.press("p"));
-    while viewer.listen(Duration::from_millis(500)).is_some() {}
+    viewer.rest();
     let (samples, _) = *viewer.shown.borrow();
     assert!((1..2048).contains(&samples), "{samples} points");
     assert!(viewer.listen(Duration::from_secs(1)).is_none(), "it works on");
@@ -378,7 +364,7 @@ fn it_pauses_and_says_its_keys() {
     // Another lens is shown with the least that shows it.
     let [diameter, ..] = *viewer.state.borrow();
     viewer.drag("Lens diameter", &[0.125, 0.2, 0.3], |viewer| viewer.state.borrow()[0] > 1.2 * diameter);
-    while viewer.listen(Duration::from_millis(500)).is_some() {}
+    viewer.rest();
     let wide = viewer.state.borrow()[0].to_string();
     let samples = viewer.shown.borrow().0.to_string();
     viewer.expect_picture("a paused picture", 0, &["-n", &samples, "--lens-diameter", &wide]);

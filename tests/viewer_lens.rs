@@ -4,7 +4,6 @@ mod common;
 
 use common::viewer::Viewer;
 use common::{circle_of_confusion, seen};
-use std::time::Duration;
 use thinlens::scene::Preset;
 use thinlens::scene::{self, SceneRef};
 use thinlens::settings::{Estimator, Settings};
@@ -17,11 +16,6 @@ fn shown() -> Estimator {
     let mut estimator = Settings::of_scene(SceneRef::new(scene)).estimator;
     estimator.size = SIZE.map(u32::from);
     estimator
-}
-
-/// Waits until nothing moves any more.
-fn rest(viewer: &Viewer) {
-    while viewer.listen(Duration::from_millis(500)).is_some() {}
 }
 
 /// Where a material is seen in the right half of the picture, two pixels from anything else.
@@ -49,11 +43,6 @@ fn what_is_pointed_at_comes_into_focus() {
         let [diameter, focal_distance, _] = viewer.state.borrow().map(f64::from);
         circle_of_confusion(diameter, focal_distance, depth, k)
     };
-    let point_at = |viewer: &Viewer, [x, y]: [u32; 2]| {
-        viewer.xdotool(&format!("mousemove {x} {y}"));
-        viewer.frames(3);
-    };
-
     for (material, act) in [("cream", "click 3"), ("terracotta", "key f")] {
         let pixel = find(&estimator, material);
         let (depth, _) = seen(&estimator, pixel, [0.0; 2]).expect("a surface");
@@ -62,8 +51,8 @@ fn what_is_pointed_at_comes_into_focus() {
             "pointing",
             |viewer| (f64::from(viewer.state.borrow()[1]) / depth - 1.0).abs() < 1e-4,
             || {
-                point_at(&viewer, pixel);
-                viewer.xdotool(act);
+                viewer.point(pixel.map(u32::cast_signed));
+                viewer.hands(act, 0);
             },
         );
         assert!(blur(&viewer, depth) < 0.5, "{material} is blurred over {} px", blur(&viewer, depth));
@@ -73,7 +62,7 @@ fn what_is_pointed_at_comes_into_focus() {
     }
 
     // Up the wheel with Ctrl: away, by 2% a notch. Xvfb sends more than one.
-    rest(&viewer);
+    viewer.rest();
     let before = viewer.state.borrow()[1];
     viewer.until(
         "the wheel",
@@ -82,11 +71,9 @@ fn what_is_pointed_at_comes_into_focus() {
             notches > 0.5 && (notches - notches.round()).abs() < 0.01
         },
         || {
-            viewer.xdotool("keydown ctrl");
-            viewer.frames(3);
-            viewer.xdotool("click 4");
-            viewer.frames(3);
-            viewer.xdotool("keyup ctrl");
+            viewer.hands("keydown ctrl", 1);
+            viewer.wheel([600, 500], 1);
+            viewer.hands("keyup ctrl", 0);
         },
     );
 
@@ -94,11 +81,11 @@ fn what_is_pointed_at_comes_into_focus() {
     viewer.click("Autofocus", |viewer| blur(viewer, depth) < 0.5);
 
     // The background is nothing to focus on.
-    rest(&viewer);
+    viewer.rest();
     let before = *viewer.state.borrow();
-    point_at(&viewer, [790, 10]);
-    viewer.xdotool("click 3");
-    rest(&viewer);
+    viewer.point([790, 10]);
+    viewer.hands("click 3", 0);
+    viewer.rest();
     assert_eq!(*viewer.state.borrow(), before, "it focuses on the sky");
     viewer.close();
 }

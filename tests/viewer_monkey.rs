@@ -156,14 +156,13 @@ impl Monkey<'_> {
         viewer.xdotool(&format!("mousemove {} {}", x + 20, y + height / 2));
         self.look();
         viewer.xdotool("click 1");
-        let deadline = Instant::now() + Duration::from_secs(1);
-        while !viewer.controls.borrow().contains_key(scene) {
-            if Instant::now() > deadline {
-                return false;
-            }
-            viewer.listen(Duration::from_millis(20));
-        }
-        viewer.click_once(scene);
+        self.look();
+        let Some([x, y, _, height]) = viewer.controls.borrow().get(scene).copied() else {
+            return false;
+        };
+        viewer.xdotool(&format!("mousemove {} {}", x + height / 2, y + height / 2));
+        self.look();
+        viewer.xdotool("click 1");
         true
     }
 }
@@ -181,7 +180,11 @@ fn two_hundred_actions_leave_nothing_behind() {
     let home = |monkey: &mut Monkey<'_>| {
         monkey.size = SIZE;
         viewer.xdotool(&format!("search --class thinlens windowsize {} {}", SIZE[0], SIZE[1]));
-        monkey.look();
+        let shown = format!("of {}x{}", SIZE[0], SIZE[1]);
+        viewer.wait_for("its size", |viewer| viewer.last_shown.borrow().contains(&shown));
+        // Whatever was being typed is over.
+        viewer.press("Escape");
+        viewer.rest();
         // A picture has all settings, and can be dropped whatever became of the panel.
         viewer.until(
             "version-4",
@@ -189,7 +192,7 @@ fn two_hundred_actions_leave_nothing_behind() {
             |viewer| (*viewer.state.borrow(), *viewer.camera.borrow(), viewer.shown.borrow().1) == start,
             || viewer.drop_file(&plain),
         );
-        (0..5).for_each(|_| monkey.look());
+        viewer.rest();
         let holds =
             |viewer: &Viewer| viewer.memory.borrow().iter().any(|(name, _)| name.contains("held picture"));
         if holds(&viewer) {

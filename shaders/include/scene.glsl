@@ -86,15 +86,26 @@ layout(set = 0, binding = 9, std430) readonly buffer EnvironmentBuffer { Environ
 
 layout(set = 0, binding = 19, std430) readonly buffer Velocities { vec4 velocities[]; }; // a second
 
+// How many of each are copied: none where the scene is not, for some compilers find room for every element of
+// an array, used or not.
+const uint KEPT_SPHERES = SPHERE_COUNT * SCENE_IS_KEPT;
+const uint KEPT_BOXES = BOX_COUNT * SCENE_IS_KEPT;
+const uint KEPT_TRIANGLES = TRIANGLE_COUNT * SCENE_IS_KEPT;
+const uint KEPT_PLANES = PLANE_COUNT * SCENE_IS_KEPT;
+const uint KEPT_MATERIALS = MATERIAL_COUNT * SCENE_IS_KEPT;
+const uint KEPT_LIGHTS = LIGHT_COUNT * SCENE_IS_KEPT;
+const uint KEPT_MOVING = (SPHERE_COUNT + BOX_COUNT + TRIANGLE_COUNT) * SCENE_IS_KEPT * SCENE_MOVES;
+const uint KEPT_SHAPES = (SPHERE_COUNT + BOX_COUNT + TRIANGLE_COUNT + PLANE_COUNT) * SCENE_IS_KEPT;
+
 // The copies. There is one element to spare, for there are no empty arrays.
-Sphere kept_spheres[SPHERE_COUNT + 1u];
-Box kept_boxes[BOX_COUNT + 1u];
-Triangle kept_triangles[TRIANGLE_COUNT + 1u];
-Plane kept_planes[PLANE_COUNT + 1u];
-uint kept_material_of_shape[SPHERE_COUNT + BOX_COUNT + TRIANGLE_COUNT + PLANE_COUNT + 1u];
-Material kept_materials[MATERIAL_COUNT];
-Light kept_lights[LIGHT_COUNT + 1u];
-vec4 kept_velocities[SPHERE_COUNT + BOX_COUNT + TRIANGLE_COUNT + 1u];
+Sphere kept_spheres[KEPT_SPHERES + 1u];
+Box kept_boxes[KEPT_BOXES + 1u];
+Triangle kept_triangles[KEPT_TRIANGLES + 1u];
+Plane kept_planes[KEPT_PLANES + 1u];
+uint kept_material_of_shape[KEPT_SHAPES + 1u];
+Material kept_materials[KEPT_MATERIALS + 1u];
+Light kept_lights[KEPT_LIGHTS + 1u];
+vec4 kept_velocities[KEPT_MOVING + 1u];
 Environment kept_environment;
 
 // To be called first thing in main().
@@ -102,18 +113,14 @@ void keep_scene() {
     if (SCENE_IS_KEPT == 0u) {
         return;
     }
-    [[unroll]] for (uint i = 0u; i < SPHERE_COUNT; ++i) { kept_spheres[i] = spheres[i]; }
-    [[unroll]] for (uint i = 0u; i < BOX_COUNT; ++i) { kept_boxes[i] = boxes[i]; }
-    [[unroll]] for (uint i = 0u; i < TRIANGLE_COUNT; ++i) { kept_triangles[i] = triangles[i]; }
-    [[unroll]] for (uint i = 0u; i < PLANE_COUNT; ++i) { kept_planes[i] = planes[i]; }
-    [[unroll]] for (uint i = 0u; i < SPHERE_COUNT + BOX_COUNT + TRIANGLE_COUNT + PLANE_COUNT; ++i) {
-        kept_material_of_shape[i] = material_of_shape[i];
-    }
-    [[unroll]] for (uint i = 0u; i < MATERIAL_COUNT; ++i) { kept_materials[i] = materials[i]; }
-    [[unroll]] for (uint i = 0u; i < LIGHT_COUNT; ++i) { kept_lights[i] = lights[i]; }
-    if (SCENE_MOVES == 1u) {
-        [[unroll]] for (uint i = 0u; i < SPHERE_COUNT + BOX_COUNT + TRIANGLE_COUNT; ++i) { kept_velocities[i] = velocities[i]; }
-    }
+    [[unroll]] for (uint i = 0u; i < KEPT_SPHERES; ++i) { kept_spheres[i] = spheres[i]; }
+    [[unroll]] for (uint i = 0u; i < KEPT_BOXES; ++i) { kept_boxes[i] = boxes[i]; }
+    [[unroll]] for (uint i = 0u; i < KEPT_TRIANGLES; ++i) { kept_triangles[i] = triangles[i]; }
+    [[unroll]] for (uint i = 0u; i < KEPT_PLANES; ++i) { kept_planes[i] = planes[i]; }
+    [[unroll]] for (uint i = 0u; i < KEPT_SHAPES; ++i) { kept_material_of_shape[i] = material_of_shape[i]; }
+    [[unroll]] for (uint i = 0u; i < KEPT_MATERIALS; ++i) { kept_materials[i] = materials[i]; }
+    [[unroll]] for (uint i = 0u; i < KEPT_LIGHTS; ++i) { kept_lights[i] = lights[i]; }
+    [[unroll]] for (uint i = 0u; i < KEPT_MOVING; ++i) { kept_velocities[i] = velocities[i]; }
     kept_environment = environment;
 }
 
@@ -137,7 +144,7 @@ Material get_material(uint index) {
         return materials[index];
     }
     Material material = kept_materials[0];
-    [[unroll]] for (uint i = 1u; i < MATERIAL_COUNT; ++i) {
+    [[unroll]] for (uint i = 1u; i < KEPT_MATERIALS; ++i) {
         if (index == i) {
             material = kept_materials[i];
         }

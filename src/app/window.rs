@@ -31,6 +31,8 @@ const DRAGGING_BUDGET: Duration = Duration::from_millis(4);
 const RESTING_BUDGET: Duration = Duration::from_millis(30);
 /// imgui takes a frame to notice an event and one more to draw what it did.
 const FRAMES_AFTER_EVENT: u32 = 3;
+/// It takes presses and releases that come at once a frame each: so many are waited for at most.
+const MOST_FRAMES_TO_DRAW: u32 = 30;
 
 /// The application as winit drives it.
 pub(super) struct Viewer {
@@ -55,6 +57,8 @@ struct Open {
     /// When the first event came that no frame has shown yet.
     unshown_since: Option<Instant>,
     frames_to_draw: u32,
+    /// Whether it waits for an event.
+    idle: bool,
     /// Whether the last frame had a control held.
     dragging: bool,
     shown: (u32, u32),
@@ -122,7 +126,9 @@ impl ApplicationHandler for Viewer {
                     WindowEvent::Occluded(occluded) => open.occluded = occluded,
                     _ => {}
                 }
-                open.frames_to_draw = FRAMES_AFTER_EVENT;
+                let more = u32::from(report_input(&event));
+                open.frames_to_draw =
+                    (open.frames_to_draw + more).clamp(FRAMES_AFTER_EVENT, MOST_FRAMES_TO_DRAW);
                 open.unshown_since.get_or_insert_with(Instant::now);
                 let scale = open.platform.hidpi_factor();
                 let event: Event<()> = Event::WindowEvent { window_id, event };
@@ -138,14 +144,18 @@ impl ApplicationHandler for Viewer {
     }
 
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
-        let Some(open) = &self.open else {
+        let Some(open) = &mut self.open else {
             return;
         };
         // Drawing waits for the display, so asking for the next frame at once does not spin.
         let busy = open.frames_to_draw > 0 || !(open.graphics.finished() || open.rests());
-        if busy && !open.is_hidden() {
+        let busy = busy && !open.is_hidden();
+        if busy {
             open.window.request_redraw();
+        } else if !open.idle {
+            log::trace!("idle");
         }
+        open.idle = !busy;
         event_loop.set_control_flow(ControlFlow::Wait);
     }
 
@@ -156,6 +166,26 @@ impl ApplicationHandler for Viewer {
         }
         self.open = None;
     }
+}
+
+/// Says in the log what came from the hand, and gives whether a button or a key changed.
+fn report_input(event: &WindowEvent) -> bool {
+    let state = match event {
+        WindowEvent::MouseInput { state, .. } => state,
+        // What is held when the window gets the focus comes twice, once made up.
+        WindowEvent::KeyboardInput { event, is_synthetic: false, .. } if !event.repeat => &event.state,
+        WindowEvent::CursorMoved { position, .. } => {
+            log::trace!("pointer at {} {}", position.x, position.y);
+            return false;
+        }
+        WindowEvent::MouseWheel { .. } => {
+            log::trace!("input Turned");
+            return false;
+        }
+        _ => return false,
+    };
+    log::trace!("input {state:?}");
+    true
 }
 
 impl Open {
@@ -194,6 +224,7 @@ impl Open {
             last_frame: Instant::now(),
             unshown_since: None,
             frames_to_draw: FRAMES_AFTER_EVENT,
+            idle: false,
             dragging: false,
             shown: (0, 0),
             state: [f32::NAN; 3],

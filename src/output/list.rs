@@ -27,7 +27,8 @@ pub fn list_devices() -> Result<()> {
     }
     for device in devices {
         let fault = device.unusable.map_or_else(String::new, |fault| format!(", cannot be used: {fault}"));
-        say(&format!("{}  {} ({}, {}{fault})", device.index, device.name, device.kind, device.driver))?;
+        let uuid = device.uuid.map_or_else(String::new, |uuid| format!(", UUID {uuid}"));
+        say(&format!("{}  {} ({}, {}{uuid}{fault})", device.index, device.name, device.kind, device.driver))?;
     }
     Ok(())
 }

@@ -59,7 +59,7 @@ impl SceneBuffers {
     /// Uploads a scene.
     ///
     /// # Errors
-    /// [`Error::Memory`], also where it has more shapes than a tree can hold, or what Vulkan says.
+    /// [`Error::Limit`] where it has more shapes than a tree can hold, [`Error::Memory`], or what Vulkan says.
     pub fn new(device: &Arc<Device>, scene: &SceneData) -> Result<Self> {
         let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
         let (records, normals, velocities, depth, kinds) = match &scene.tree {
@@ -67,7 +67,13 @@ impl SceneBuffers {
             None => (&[][..], &[][..], &[][..], 0, 0),
         };
         if records.len() > MOST_TREE_RECORDS {
-            return Err(Error::Memory { what: "the tree of shapes" });
+            return Err(Error::Limit {
+                what: "the tree of shapes",
+                unit: "records",
+                wanted: records.len() as u64,
+                most: MOST_TREE_RECORDS as u64,
+                limit: "of thinlens itself",
+            });
         }
         let most_steps = if device.info().kind == SOFTWARE { MOST_TREE_STEPS } else { usize::MAX };
         let steps = count(records.len().min(most_steps));

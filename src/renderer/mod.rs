@@ -189,8 +189,10 @@ impl Renderer {
         if !self.scene.as_ref().is_some_and(fits) {
             self.load_scene(estimator, constants)?;
         }
+        if let Some(loaded) = &self.scene {
+            self.largest_batch = self.fit_loops(&loaded.buffers, estimator.max_bounces)?;
+        }
         self.fit_opening(estimator, constants)?;
-        self.largest_batch = self.fit_loops(estimator.max_bounces)?;
         let fits = self.film.as_ref().is_some_and(|film| film.film.extent() == estimator.size);
         if let (false, Some(passes)) = (fits, &self.passes) {
             self.device.wait_idle()?;
@@ -224,8 +226,8 @@ impl Renderer {
     }
 
     /// The batch that the scene's loops allow.
-    fn fit_loops(&self, max_bounces: u32) -> Result<u32> {
-        let steps = self.scene.as_ref().map_or(0, |loaded| loaded.buffers.most_loop_steps(max_bounces));
+    fn fit_loops(&self, scene: &SceneBuffers, max_bounces: u32) -> Result<u32> {
+        let steps = scene.most_loop_steps(max_bounces);
         match schedule::largest_batch(steps) {
             Some(batch) => Ok(batch),
             None if self.device.info().kind != SOFTWARE => Ok(1),
@@ -282,6 +284,8 @@ impl Renderer {
             (estimator.scene.clone(), estimator.shutter, aperture_constant(estimator));
         let data = SceneData::new(&scene, shutter);
         let buffers = SceneBuffers::new(&self.device, &data)?;
+        // A scene that is refused may also be one that the driver cannot compile the pass for.
+        self.fit_loops(&buffers, estimator.max_bounces)?;
         let trace = Trace::new(&self.device, self.shaders.trace, constants, aperture, &buffers, &self.tile)?;
         self.tally.forget_scene();
         let moves = data.moves;

@@ -101,16 +101,14 @@ impl TexelBuffer {
     /// A buffer on the device that holds `data`, in texels of 16 bytes.
     ///
     /// # Errors
-    /// [`Error::Memory`], also where it has more texels than the device can read, or what Vulkan says.
+    /// [`Error::Limit`] where it has more texels than the device can read, [`Error::Memory`], or what Vulkan
+    /// says.
     pub fn upload<T: bytemuck::NoUninit>(
         device: &Arc<Device>,
         name: &'static str,
         data: &[T],
     ) -> Result<Self> {
-        let texels = size_of_val(data).div_ceil(16);
-        if texels > device.max_texels() as usize {
-            return Err(Error::Memory { what: name });
-        }
+        check_texels(name, size_of_val(data), device.max_texels())?;
         let buffer = Buffer::upload(device, name, data)?;
         let info = vk::BufferViewCreateInfo::default()
             .buffer(buffer.raw)
@@ -120,6 +118,15 @@ impl TexelBuffer {
         let view = unsafe { device.raw.create_buffer_view(&info, None) };
         Ok(Self { view: check("creating a buffer view", view)?, buffer })
     }
+}
+
+/// Whether a device that reads so many texels at most can read as many bytes.
+fn check_texels(what: &'static str, bytes: usize, most: u32) -> Result<()> {
+    let (wanted, most) = (bytes.div_ceil(16) as u64, u64::from(most));
+    if wanted <= most {
+        return Ok(());
+    }
+    Err(Error::Limit { what, unit: "texels", wanted, most, limit: "maxTexelBufferElements of the device" })
 }
 
 impl Drop for TexelBuffer {
@@ -162,5 +169,20 @@ pub(super) fn release(device: &Device, allocation: Option<Allocation>) {
         && let Err(error) = device.allocator().free(allocation)
     {
         log::error!("freeing device memory: {error}");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Catches a limit of the device that is told as a lack of memory, or that is off by a texel.
+    #[test]
+    fn a_limit_of_texels_is_told_as_what_it_is() {
+        assert!(check_texels("tree", 16 * 65_536, 65_536).is_ok());
+        let error = check_texels("tree", 16 * 65_536 + 1, 65_536).expect_err("one too many").to_string();
+        for part in ["tree", "65537 texels", "65536", "maxTexelBufferElements"] {
+            assert!(error.contains(part), "{error}");
+        }
     }
 }

@@ -2,11 +2,11 @@
 
 use super::pipeline_cache::{PipelineCache, user_cache_folder};
 use super::swapchain::Surface;
-use super::{Instance, check};
+use super::{Instance, check, loader_changes, loader_stays};
 use crate::error::{Error, Result};
 use ash::{ext, khr, vk};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
-use std::ffi::CStr;
+use std::ffi::{CStr, CString};
 use std::mem::ManuallyDrop;
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
@@ -29,6 +29,8 @@ pub struct DeviceInfo {
     pub kind: &'static str,
     /// The driver's name and version.
     pub driver: String,
+    /// Its UUID, where another device has the same name.
+    pub uuid: Option<String>,
     /// Why the renderer cannot use it, if so.
     pub unusable: Option<String>,
     rank: u8,
@@ -60,12 +62,17 @@ impl Instance {
     /// What Vulkan says.
     pub fn devices(&self, surface: Option<&Surface>) -> Result<Vec<DeviceInfo>> {
         // SAFETY: the instance is valid.
-        let devices = unsafe { self.raw.enumerate_physical_devices() };
-        check("listing devices", devices)?
+        let devices = unsafe {
+            let _lists = loader_changes();
+            self.raw.enumerate_physical_devices()
+        };
+        let mut devices: Vec<DeviceInfo> = check("listing devices", devices)?
             .into_iter()
             .enumerate()
             .map(|(index, raw)| self.describe(index, raw, surface))
-            .collect()
+            .collect::<Result<_>>()?;
+        keep_needed_uuids(&mut devices);
+        Ok(devices)
     }
 
     fn describe(
@@ -75,7 +82,9 @@ impl Instance {
         surface: Option<&Surface>,
     ) -> Result<DeviceInfo> {
         let mut driver = vk::PhysicalDeviceDriverProperties::default();
-        let mut properties = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
+        let mut id = vk::PhysicalDeviceIDProperties::default();
+        let mut properties =
+            vk::PhysicalDeviceProperties2::default().push_next(&mut driver).push_next(&mut id);
         // SAFETY: raw is a device of this instance; the structures chain to live locals.
         unsafe { self.raw.get_physical_device_properties2(raw, &mut properties) };
         let properties = properties.properties;
@@ -95,6 +104,7 @@ impl Instance {
                 text(driver.driver_name_as_c_str()),
                 text(driver.driver_info_as_c_str())
             ),
+            uuid: Some(id.device_uuid.map(|byte| format!("{byte:02x}")).concat()),
             unusable: None,
             rank,
             raw,
@@ -119,6 +129,11 @@ impl Instance {
                 info.unusable = Some("no queue that computes, draws and presents".into())
             }
             None => info.unusable = Some("no queue that computes".into()),
+        }
+        if let (None, Some(surface)) = (&info.unusable, surface) {
+            let can_swap = extensions(self, raw)?.iter().any(|name| name.as_c_str() == khr::swapchain::NAME);
+            let fault = if can_swap { surface.fault(raw)? } else { Some("VK_KHR_swapchain is missing") };
+            info.unusable = fault.map(|fault| format!("it can show no picture in a window: {fault}"));
         }
         Ok(info)
     }
@@ -173,7 +188,10 @@ impl Device {
             .enabled_extension_names(&wanted)
             .push_next(&mut features);
         // SAFETY: the structures live through the call; Vulkan 1.3 guarantees both features.
-        let raw = unsafe { instance.raw.create_device(info.raw, &create, None) };
+        let raw = unsafe {
+            let _lists = loader_changes();
+            instance.raw.create_device(info.raw, &create, None)
+        };
         let raw = check("creating the device", raw)?;
 
         let allocator = Allocator::new(&AllocatorCreateDesc {
@@ -188,7 +206,10 @@ impl Device {
             Ok(allocator) => allocator,
             Err(error) => {
                 // SAFETY: nothing was made of the device yet.
-                unsafe { raw.destroy_device(None) };
+                unsafe {
+                    let _lists = loader_changes();
+                    raw.destroy_device(None);
+                }
                 log::error!("allocator: {error}");
                 return Err(Error::NoDevice(format!("{}: {error}", info.name)));
             }
@@ -292,10 +313,11 @@ impl Device {
 
     /// Gives an object its name in validation messages and debuggers.
     pub(super) fn set_name(&self, object: impl vk::Handle, name: &str) {
-        let (Some(debug), Ok(name)) = (&self.debug, std::ffi::CString::new(name)) else {
+        let (Some(debug), Ok(name)) = (&self.debug, CString::new(name)) else {
             return;
         };
         let info = vk::DebugUtilsObjectNameInfoEXT::default().object_handle(object).object_name(&name);
+        let _lists = loader_stays();
         // SAFETY: the object is one of this device. A name that cannot be set is no failure.
         let _ = unsafe { debug.set_debug_utils_object_name(&info) };
     }
@@ -312,9 +334,17 @@ impl Drop for Device {
                 cache.destroy(&self.raw);
             }
             ManuallyDrop::drop(&mut self.allocator);
+            let _lists = loader_changes();
             self.raw.destroy_device(None);
         }
     }
+}
+
+/// A device's UUID tells it apart from others of its name, and is of no use elsewhere.
+fn keep_needed_uuids(devices: &mut [DeviceInfo]) {
+    let names: Vec<_> = devices.iter().map(|device| device.name.clone()).collect();
+    let alone = |device: &DeviceInfo| names.iter().filter(|name| **name == device.name).count() == 1;
+    devices.iter_mut().filter(|device| alone(device)).for_each(|device| device.uuid = None);
 }
 
 fn choose<'a>(devices: &'a [DeviceInfo], wanted: Option<&str>) -> Result<&'a DeviceInfo> {
@@ -346,7 +376,7 @@ fn choose<'a>(devices: &'a [DeviceInfo], wanted: Option<&str>) -> Result<&'a Dev
     }
 }
 
-fn extensions(instance: &Instance, device: vk::PhysicalDevice) -> Result<Vec<std::ffi::CString>> {
+fn extensions(instance: &Instance, device: vk::PhysicalDevice) -> Result<Vec<CString>> {
     // SAFETY: the device is of this instance.
     let properties = unsafe { instance.raw.enumerate_device_extension_properties(device) };
     let properties = check("listing device extensions", properties)?;
@@ -358,4 +388,28 @@ fn extensions(instance: &Instance, device: vk::PhysicalDevice) -> Result<Vec<std
 
 fn text(name: Result<&CStr, std::ffi::FromBytesUntilNulError>) -> String {
     name.unwrap_or(c"?").to_string_lossy().into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Catches two devices of one name that a list does not tell apart.
+    #[test]
+    fn devices_of_one_name_keep_their_uuids() {
+        let named = |name: &str, uuid: &str| DeviceInfo {
+            index: 0,
+            name: name.into(),
+            kind: SOFTWARE,
+            driver: String::new(),
+            uuid: Some(uuid.into()),
+            unusable: None,
+            rank: 3,
+            raw: vk::PhysicalDevice::null(),
+            queue_family: 0,
+        };
+        let mut devices = [named("twin", "01"), named("other", "02"), named("twin", "03")];
+        keep_needed_uuids(&mut devices);
+        assert_eq!(devices.map(|device| device.uuid), [Some("01".into()), None, Some("03".into())]);
+    }
 }

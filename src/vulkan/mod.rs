@@ -31,6 +31,23 @@ pub use timing::Timer;
 
 use crate::error::{Error, Result};
 use ash::vk;
+use std::sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
+
+/// The loader's lists of instances, drivers and devices, which all threads share. To name an object the loader
+/// walks through all of them, those of other instances too, and does so without a lock of its own (seen in
+/// 1.4.309): meanwhile no other thread may make or unmake any.
+static LOADER: RwLock<()> = RwLock::new(());
+
+/// While something is looked up in the loader's lists.
+fn loader_stays() -> RwLockReadGuard<'static, ()> {
+    LOADER.read().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// While the loader's lists change: around making and unmaking instances and devices, and around listing the
+/// devices, which unloads drivers that have none.
+fn loader_changes() -> RwLockWriteGuard<'static, ()> {
+    LOADER.write().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// Names what failed.
 fn check<T>(what: &'static str, result: Result<T, vk::Result>) -> Result<T> {

@@ -35,6 +35,11 @@ pub struct Swapchain {
     _surface: Arc<Surface>,
 }
 
+/// What is done with the images: pictures are copied to them, and the panel is drawn on top.
+const USAGE: vk::ImageUsageFlags = vk::ImageUsageFlags::from_raw(
+    vk::ImageUsageFlags::TRANSFER_DST.as_raw() | vk::ImageUsageFlags::COLOR_ATTACHMENT.as_raw(),
+);
+
 /// How many frames the host may be ahead of the device.
 pub const FRAMES_IN_FLIGHT: usize = 2;
 
@@ -81,6 +86,20 @@ impl Surface {
         let supported = unsafe { self.loader.get_physical_device_surface_support(device, family, self.raw) };
         check("asking whether a device can present", supported)
     }
+
+    /// Why a device that presents to it still cannot be used, if so.
+    pub(super) fn fault(&self, device: vk::PhysicalDevice) -> Result<Option<&'static str>> {
+        // SAFETY: device and surface belong to one instance, and the device presents to the surface.
+        let (capabilities, formats) = unsafe {
+            (
+                self.loader.get_physical_device_surface_capabilities(device, self.raw),
+                self.loader.get_physical_device_surface_formats(device, self.raw),
+            )
+        };
+        let capabilities = check("asking what the window takes", capabilities)?;
+        let formats = check("asking which formats the window takes", formats)?;
+        Ok(fault(&capabilities, &formats))
+    }
 }
 
 impl Drop for Surface {
@@ -111,12 +130,8 @@ impl Swapchain {
         if extent.contains(&0) {
             return Ok(None);
         }
-        // The resolve pass encodes sRGB itself, so the format must not do it again.
-        let format = formats
-            .iter()
-            .find(|format| [vk::Format::B8G8R8A8_UNORM, vk::Format::R8G8B8A8_UNORM].contains(&format.format));
-        let Some(format) = format else {
-            return Err(Error::Window("it takes no 8-bit pictures".into()));
+        let Some(format) = format(&formats) else {
+            return Err(Error::Window(NO_FORMAT.into()));
         };
         let most = if capabilities.max_image_count == 0 { u32::MAX } else { capabilities.max_image_count };
         let info = vk::SwapchainCreateInfoKHR::default()
@@ -126,7 +141,7 @@ impl Swapchain {
             .image_color_space(format.color_space)
             .image_extent(vk::Extent2D { width: extent[0], height: extent[1] })
             .image_array_layers(1)
-            .image_usage(vk::ImageUsageFlags::TRANSFER_DST | vk::ImageUsageFlags::COLOR_ATTACHMENT)
+            .image_usage(USAGE)
             .image_sharing_mode(vk::SharingMode::EXCLUSIVE)
             .pre_transform(capabilities.current_transform)
             .composite_alpha(composite_alpha(&capabilities))
@@ -348,6 +363,29 @@ fn transition(
     recording.depend(&vk::DependencyInfo::default().image_memory_barriers(&barrier));
 }
 
+const NO_FORMAT: &str = "it takes no 8-bit pictures";
+
+/// The resolve pass encodes sRGB itself, so the format must not do it again.
+fn format(offered: &[vk::SurfaceFormatKHR]) -> Option<&vk::SurfaceFormatKHR> {
+    let known = [vk::Format::B8G8R8A8_UNORM, vk::Format::R8G8B8A8_UNORM];
+    offered.iter().find(|offered| known.contains(&offered.format))
+}
+
+/// What a window lacks that every frame needs.
+fn fault(
+    capabilities: &vk::SurfaceCapabilitiesKHR,
+    formats: &[vk::SurfaceFormatKHR],
+) -> Option<&'static str> {
+    let takes = |usage| capabilities.supported_usage_flags.contains(usage);
+    match () {
+        () if !takes(vk::ImageUsageFlags::TRANSFER_DST) => Some("nothing can be copied to it (TRANSFER_DST)"),
+        () if !takes(vk::ImageUsageFlags::COLOR_ATTACHMENT) => {
+            Some("nothing can be drawn on it (COLOR_ATTACHMENT)")
+        }
+        () => format(formats).is_none().then_some(NO_FORMAT),
+    }
+}
+
 fn extent(capabilities: &vk::SurfaceCapabilitiesKHR, size: [u32; 2]) -> [u32; 2] {
     let current = capabilities.current_extent;
     if current.width != u32::MAX {
@@ -367,4 +405,25 @@ fn composite_alpha(capabilities: &vk::SurfaceCapabilitiesKHR) -> vk::CompositeAl
     .into_iter()
     .find(|mode| supported.contains(*mode))
     .unwrap_or(vk::CompositeAlphaFlagsKHR::OPAQUE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Catches a window that is used for what it does not offer: on such a device each frame breaks Vulkan's rules.
+    #[test]
+    fn a_window_that_lacks_something_is_not_used() {
+        let of = |usage, format| {
+            let capabilities = vk::SurfaceCapabilitiesKHR::default().supported_usage_flags(usage);
+            let format = vk::SurfaceFormatKHR { format, ..Default::default() };
+            fault(&capabilities, &[format])
+        };
+        let eight_bits = vk::Format::R8G8B8A8_UNORM;
+        assert_eq!(of(USAGE | vk::ImageUsageFlags::SAMPLED, eight_bits), None);
+        let lacks = |usage: vk::ImageUsageFlags| of(USAGE & !usage, eight_bits).expect("a fault");
+        assert!(lacks(vk::ImageUsageFlags::TRANSFER_DST).contains("TRANSFER_DST"));
+        assert!(lacks(vk::ImageUsageFlags::COLOR_ATTACHMENT).contains("COLOR_ATTACHMENT"));
+        assert_eq!(of(USAGE, vk::Format::R16G16B16A16_SFLOAT), Some(NO_FORMAT));
+    }
 }

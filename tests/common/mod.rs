@@ -38,6 +38,7 @@ impl Gpu {
     /// The best device. No device, or no validation layer, fails the test.
     pub fn new() -> Self {
         let instance = Instance::new(true, None).expect("a Vulkan loader and the validation layer");
+        assert!(instance.watches_synchronization(), "this validation layer sees no missing barrier");
         let device = Device::open(&instance, None, None).expect("a Vulkan 1.3 device");
         Self { device: Some(device), instance, expected: Vec::new(), fault: "" }
     }

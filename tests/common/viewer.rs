@@ -1,7 +1,11 @@
 //! The viewer under Xvfb, driven as a user would. Needs Xvfb and xdotool: a missing one fails.
+//!
+//! A machine may be busy, so nothing here waits for a time. The viewer's log says in their order which events it
+//! has seen, which frames it began, and what is set and shown: a test waits until an event was seen and drawn before it
+//! looks or goes on.
 
 use super::{CACHE, decode_png, render_png};
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -21,6 +25,9 @@ use x11rb::wrapper::ConnectionExt as _;
 
 /// Right of the panel.
 const PICTURE_LEFT: usize = 340;
+/// After an event the viewer draws three frames at least. Two see what comes of it, and are over when the third
+/// one begins.
+const FRAMES: usize = 3;
 /// Long enough for a busy machine; what is waited for comes in well under a second elsewhere.
 const PATIENCE: Duration = Duration::from_secs(60);
 
@@ -31,6 +38,28 @@ impl Drop for Killed {
     fn drop(&mut self) {
         let _ = self.0.kill();
         let _ = self.0.wait();
+    }
+}
+
+/// A display that nobody sees.
+pub struct Server {
+    process: Killed,
+    pub display: String,
+}
+
+impl Server {
+    pub fn start() -> Self {
+        let mut process = Command::new("Xvfb")
+            .args(["-displayfd", "1", "-screen", "0", "1280x1024x24", "-nolisten", "tcp"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .map(Killed)
+            .expect("Xvfb, which setup.sh installs");
+        let mut number = String::new();
+        let out = process.0.stdout.take().expect("piped");
+        BufReader::new(out).read_line(&mut number).expect("Xvfb says its display");
+        Self { process, display: format!(":{}", number.trim()) }
     }
 }
 
@@ -55,6 +84,15 @@ pub struct Viewer {
     pub message: RefCell<String>,
     /// What is allocated on the device: names and bytes.
     pub memory: RefCell<Vec<(String, u64)>>,
+    /// The command line that was copied last.
+    pub copied: RefCell<Option<String>>,
+    /// Where the viewer saw the pointer last.
+    pointer: Cell<Option<[i32; 2]>>,
+    /// Presses, releases and turns of the wheel that it has seen, and how many buttons and keys it knows as held.
+    inputs: Cell<usize>,
+    held: Cell<usize>,
+    /// Whether it has drawn all there is to draw, and waits for an event.
+    idle: Cell<bool>,
     /// All samples that were shown, since it was cleared last.
     pub history: RefCell<Vec<u32>>,
     pub display: String,
@@ -85,18 +123,7 @@ impl Viewer {
 
     /// Likewise, in this folder, whose window must come out in this size.
     pub fn start_in(folder: &Path, size: [u16; 2], arguments: &[&str]) -> Self {
-        let mut server = Command::new("Xvfb")
-            .args(["-displayfd", "1", "-screen", "0", "1280x1024x24", "-nolisten", "tcp"])
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn()
-            .map(Killed)
-            .expect("Xvfb, which setup.sh installs");
-        let mut number = String::new();
-        let out = server.0.stdout.take().expect("piped");
-        BufReader::new(out).read_line(&mut number).expect("Xvfb says its display");
-        let display = format!(":{}", number.trim());
-
+        let Server { process: server, display } = Server::start();
         let mut program = Command::new(env!("CARGO_BIN_EXE_thinlens"))
             .arg("view")
             .args(arguments)
@@ -134,6 +161,11 @@ impl Viewer {
             last_shown: RefCell::default(),
             message: RefCell::default(),
             memory: RefCell::default(),
+            copied: RefCell::default(),
+            pointer: Cell::default(),
+            inputs: Cell::default(),
+            held: Cell::default(),
+            idle: Cell::default(),
             history: RefCell::default(),
             display,
             folder: folder.to_path_buf(),
@@ -155,6 +187,22 @@ impl Viewer {
             Err(RecvTimeoutError::Disconnected) => panic!("the viewer has ended"),
         };
         assert!(!line.contains("validation:") && !line.contains("panicked"), "{line}");
+        self.idle.set(line.ends_with("] idle"));
+        if let Some(pointer) = line.split("] pointer at ").nth(1) {
+            self.pointer.set(Some(numbers(pointer).try_into().expect("two numbers")));
+        }
+        if let Some(input) = line.split("] input ").nth(1) {
+            self.inputs.set(self.inputs.get() + 1);
+            self.held.set(match input {
+                "Pressed" => self.held.get() + 1,
+                // What was pressed outside of the window is let go in it.
+                "Released" => self.held.get().saturating_sub(1),
+                _ => self.held.get(),
+            });
+        }
+        if let Some(copied) = line.split("] copied ").nth(1) {
+            *self.copied.borrow_mut() = Some(copied.to_owned());
+        }
         if let Some(control) = line.split("control '").nth(1) {
             let (name, place) = control.split_once("' at ").expect("a name and a place");
             let place: Vec<i32> = place.split(' ').map(|number| number.parse().expect("a number")).collect();
@@ -201,82 +249,103 @@ impl Viewer {
     pub fn wait_for(&self, what: &str, reached: impl Fn(&Self) -> bool) {
         let deadline = Instant::now() + PATIENCE;
         while !reached(self) {
-            assert!(Instant::now() < deadline, "no {what}; shown {:?}", self.shown.borrow());
+            assert!(
+                Instant::now() < deadline,
+                "no {what}; shown {:?}, lens {:?}, {} inputs, {} held, pointer {:?}",
+                self.shown.borrow(),
+                self.state.borrow(),
+                self.inputs.get(),
+                self.held.get(),
+                self.pointer.get()
+            );
             self.listen(Duration::from_millis(20));
         }
     }
 
+    /// Waits until the viewer has nothing more to do.
+    pub fn rest(&self) {
+        self.wait_for("rest", |viewer| viewer.idle.get());
+    }
+
+    /// Waits until it shows the whole picture, and rests.
     pub fn wait_until_done(&self) {
         self.wait_for("whole picture", |viewer| {
             let (samples, target) = *viewer.shown.borrow();
-            samples > 0 && samples == target
+            samples > 0 && samples == target && viewer.idle.get()
         });
     }
 
+    /// Has xdotool do something, whenever the viewer may notice it.
     pub fn xdotool(&self, arguments: &str) {
         let status =
             Command::new("xdotool").args(arguments.split(' ')).env("DISPLAY", &self.display).status();
         assert!(status.expect("xdotool, which setup.sh installs").success(), "xdotool {arguments}");
     }
 
-    /// Presses keys: without a window manager, the window has to be told that it is meant.
+    /// Moves the pointer to a place in the window, and waits until the viewer has drawn what comes of it.
+    pub fn point(&self, place: [i32; 2]) {
+        if self.pointer.get() == Some(place) {
+            return; // It would get no event.
+        }
+        self.xdotool(&format!("mousemove {} {}", place[0], place[1]));
+        self.wait_for("pointer", |viewer| viewer.pointer.get() == Some(place));
+        self.frames(FRAMES);
+    }
+
+    /// Presses or lets go, after which so many buttons and keys are held, and waits until the viewer has drawn
+    /// what comes of it.
+    pub fn hands(&self, arguments: &str, held: usize) {
+        let before = self.inputs.get();
+        self.xdotool(arguments);
+        self.wait_for(arguments, |viewer| viewer.inputs.get() > before && viewer.held.get() == held);
+        self.frames(FRAMES);
+    }
+
+    /// Presses keys and lets them go at once, for a key that is held acts again. Without a window manager, the
+    /// window has to be told that it is meant.
     pub fn press(&self, keys: &str) {
-        self.xdotool(&format!("search --class thinlens windowfocus --sync key {keys}"));
+        self.hands(&format!("search --class thinlens windowfocus --sync key --delay 0 {keys}"), 0);
+    }
+
+    /// Turns the wheel away at a place of the picture, while so many keys are held. Xvfb may send more than one
+    /// notch: those that are still on their way come before the pointer's next move.
+    pub fn wheel(&self, [x, y]: [i32; 2], held: usize) {
+        self.point([x, y]);
+        self.hands("click 4", held);
+        self.point([x + 1, y]);
     }
 
     /// Drags over the picture, a step at a time.
     pub fn drag_picture(&self, button: u8, from: [i32; 2], to: [i32; 2]) {
         let at = |step: i32| {
-            let [x, y] = [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * step / 4);
-            self.xdotool(&format!("mousemove {x} {y}"));
-            self.frames(2);
+            self.point([0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * step / 4));
         };
         at(0);
-        self.xdotool(&format!("mousedown {button}"));
-        self.frames(2);
+        self.hands(&format!("mousedown {button}"), 1);
         (1..=4).for_each(at);
-        self.xdotool(&format!("mouseup {button}"));
-        self.frames(2);
+        self.hands(&format!("mouseup {button}"), 0);
     }
 
-    /// Drags a slider from its middle to this share of its width, a step at a time as a hand does.
+    /// Drags a slider from one share of its width to others, a step at a time as a hand does.
     pub fn drag(&self, control: &str, shares: &[f64], reached: impl Fn(&Self) -> bool) {
-        self.until(control, reached, || self.drag_once(control, shares));
+        self.until(control, reached, || {
+            let at = |share: f64| {
+                let [x, y, width, height] = self.controls.borrow()[control];
+                let x = x + (f64::from(width) * share).round() as i32;
+                self.point([x.max(0), y + height / 2]);
+            };
+            at(shares[0]);
+            self.hands("mousedown 1", 1);
+            shares[1..].iter().copied().for_each(at);
+            self.hands("mouseup 1", 0);
+            self.point_away();
+        });
     }
 
-    /// A busy machine may deliver a press late, so that a hand would try again, and so does this.
+    /// Does something, once, and waits until it has come to this.
     pub fn until(&self, what: &str, reached: impl Fn(&Self) -> bool, act: impl Fn()) {
-        for _ in 0..5 {
-            act();
-            let deadline = Instant::now() + Duration::from_secs(3);
-            while Instant::now() < deadline {
-                if reached(self) {
-                    return;
-                }
-                self.listen(Duration::from_millis(20));
-            }
-        }
-        panic!("{what} does nothing: {:?}, shown {:?}", self.state.borrow(), self.shown.borrow());
-    }
-
-    fn drag_once(&self, control: &str, shares: &[f64]) {
-        let at = |share: f64| {
-            let [x, y, width, height] = self.controls.borrow()[control];
-            let x = x + (f64::from(width) * share).round() as i32;
-            format!("mousemove {} {}", x.max(0), y + height / 2)
-        };
-        self.xdotool(&at(shares[0]));
-        self.frames(3);
-        self.xdotool("mousedown 1");
-        self.frames(3);
-        for share in &shares[1..] {
-            self.xdotool(&at(*share));
-            self.frames(3);
-        }
-        self.xdotool("mouseup 1");
-        // Out of the way of tooltips and highlights.
-        self.xdotool(&format!("mousemove {} {}", self.size[0] - 5, self.size[1] - 5));
-        self.frames(2);
+        act();
+        self.wait_for(what, reached);
     }
 
     pub fn click(&self, control: &str, reached: impl Fn(&Self) -> bool) {
@@ -287,26 +356,37 @@ impl Viewer {
         // What has just unfolded may not have come to rest yet.
         loop {
             let place @ [x, y, _, height] = self.controls.borrow()[control];
-            self.xdotool(&format!("mousemove {} {}", x + height / 2, y + height / 2));
-            self.frames(3);
+            self.point([x + height / 2, y + height / 2]);
             if self.controls.borrow()[control] == place {
                 break;
             }
         }
-        self.xdotool("mousedown 1");
-        self.frames(3);
-        self.xdotool("mouseup 1");
-        self.xdotool(&format!("mousemove {} {}", self.size[0] - 5, self.size[1] - 5));
-        self.frames(3);
+        self.hands("mousedown 1", 1);
+        self.hands("mouseup 1", 0);
+        self.point_away();
     }
 
-    /// Waits until the viewer has drawn that many frames more, so that it has seen an event.
-    pub fn frames(&self, count: usize) {
+    /// Out of the way of tooltips and highlights.
+    fn point_away(&self) {
+        self.point(self.size.map(|extent| i32::from(extent) - 5));
+    }
+
+    /// Gives the window another size.
+    pub fn resize(&mut self, size: [u16; 2]) {
+        let [width, height] = size;
+        self.xdotool(&format!("search --class thinlens windowsize {width} {height}"));
+        let shown = format!("of {width}x{height}");
+        self.wait_for("another size", |viewer| viewer.last_shown.borrow().contains(&shown));
+        self.size = size;
+    }
+
+    /// Waits until the viewer has begun that many frames more.
+    fn frames(&self, count: usize) {
         let deadline = Instant::now() + PATIENCE;
         let mut seen = 0;
         while seen < count {
             assert!(Instant::now() < deadline, "only {seen} of {count} frames");
-            if self.listen(Duration::from_millis(20)).is_some_and(|line| line.ends_with("frame")) {
+            if self.listen(Duration::from_millis(20)).is_some_and(|line| line.ends_with("] frame")) {
                 seen += 1;
             }
         }
