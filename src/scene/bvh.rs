@@ -2,19 +2,21 @@
 //! node, compressed after H. Ylitie et al., "Efficient Incoherent Ray Traversal on GPUs Through Compressed
 //! Wide BVHs", HPG 2017.
 
+use super::clusters::{shallow_tree, tree};
 use super::{Aabb, Scene, Shaded, Sphere, Triangle};
 use glam::{DVec3, Vec3, Vec3A};
-use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb as Bounds;
 use obvhs::bvh2::Bvh2;
-use obvhs::bvh2::builder::build_bvh2;
-use std::time::Duration;
 
 /// Children of a node, at most.
 const WIDTH: usize = 4;
 
 /// The last plane of a node's grid; the first is 0.
 const LAST_PLANE: u8 = u8::MAX;
+
+/// Trees of a million shapes are some 15 nodes deep. Where one comes out deeper than this, a stack that holds
+/// a way down it costs more than the tree is better than the shallowest.
+const DEEPEST: u32 = 32;
 
 /// A bounded shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,9 +75,11 @@ impl Bvh {
         }
         let bounds: Vec<Bounds> =
             shapes.iter().map(|of| of.shape.bounds(0.5 * shutter * of.velocity.abs())).collect();
-        let params = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::slow_build() };
-        let binary = build_bvh2(&bounds, params, &mut Duration::default());
-        let (records, depth) = widen(&binary);
+        let (mut records, mut depth) = widen(&tree(&bounds));
+        if depth > DEEPEST {
+            (records, depth) = widen(&shallow_tree(&bounds));
+        }
+        if std::env::var("TD").is_ok() { eprintln!("depth {depth} records {}", records.len()); }
         Some(Self { records, shapes, depth })
     }
 }

@@ -59,6 +59,14 @@ pub struct Triangle {
     pub normals: Option<[Vec3; 3]>,
 }
 
+impl Triangle {
+    /// Whether its normal can be made a unit vector, in f32 too.
+    pub(super) fn has_area(&self) -> bool {
+        let [a, b, c] = self.vertices;
+        (b - a).cross(c - a).length_squared() >= f32::MIN_POSITIVE
+    }
+}
+
 /// An infinite plane, seen from both sides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane {
