@@ -27,9 +27,10 @@ const MOVES: [f32; 2] = [0.2, 0.4];
 /// moving nodes, and it takes quadratic time.
 const MOST_CROWDED: usize = 500;
 
-/// Around at least one box.
-pub(super) fn tree(bounds: &[Bounds]) -> Bvh2 {
-    let mut tree = cluster(bounds);
+/// Around those of the boxes that are listed, at least one, as [`along_curve`] orders them. The tree's
+/// primitives are indices of boxes.
+pub(super) fn tree(bounds: &[Bounds], order: &[u32]) -> Bvh2 {
+    let mut tree = cluster(bounds, order);
     if crowding(&tree) <= MOST_CROWDED {
         let mut optimizer = ReinsertionOptimizer::default();
         MOVES.iter().for_each(|share| optimizer.run(&mut tree, *share, None));
@@ -38,12 +39,12 @@ pub(super) fn tree(bounds: &[Bounds]) -> Bvh2 {
 }
 
 /// The halves of the boxes along the Morton curve, their halves, and so on: the tree of least depth.
-pub(super) fn shallow_tree(bounds: &[Bounds]) -> Bvh2 {
-    merge(bounds, |nodes, _| adjacent(nodes.len()))
+pub(super) fn shallow_tree(bounds: &[Bounds], order: &[u32]) -> Bvh2 {
+    merge(bounds, order, |nodes, _| adjacent(nodes.len()))
 }
 
-fn cluster(bounds: &[Bounds]) -> Bvh2 {
-    merge(bounds, |nodes, round| {
+fn cluster(bounds: &[Bounds], order: &[u32]) -> Bvh2 {
+    merge(bounds, order, |nodes, round| {
         let partners = partners(nodes, if round < SHORT_ROUNDS { 1 } else { REACH });
         let merges = |(index, partner): (usize, &usize)| *partner > index && partners[*partner] == index;
         let count = partners.iter().enumerate().filter(|pair| merges(*pair)).count();
@@ -52,10 +53,11 @@ fn cluster(bounds: &[Bounds]) -> Bvh2 {
 }
 
 /// Merges nodes until one is left: in each round those that are each other's partners.
-fn merge(bounds: &[Bounds], partners: impl Fn(&[Bvh2Node], usize) -> Vec<usize>) -> Bvh2 {
-    let mut tree = Bvh2::zeroed(bounds.len());
-    tree.primitive_indices = (0..).take(bounds.len()).collect();
-    let mut nodes = leaves(bounds);
+fn merge(bounds: &[Bounds], order: &[u32], partners: impl Fn(&[Bvh2Node], usize) -> Vec<usize>) -> Bvh2 {
+    let mut tree = Bvh2::zeroed(order.len());
+    tree.primitive_indices = order.to_vec();
+    let leaves = order.iter().zip(0..).map(|(index, place)| Bvh2Node::new(bounds[*index as usize], 1, place));
+    let mut nodes: Vec<Bvh2Node> = leaves.collect();
     // The tree is filled from its end, so that children stand behind their parents.
     let mut free = tree.nodes.len();
     let mut round = 0;
@@ -79,8 +81,8 @@ fn merge(bounds: &[Bounds], partners: impl Fn(&[Bvh2Node], usize) -> Vec<usize>)
     tree
 }
 
-/// The boxes along the Morton curve of their middles.
-fn leaves(bounds: &[Bounds]) -> Vec<Bvh2Node> {
+/// The places of the boxes' middles on a Morton curve, in order, and their indices.
+pub(super) fn along_curve(bounds: &[Bounds]) -> Vec<(u128, u32)> {
     let whole = bounds.iter().skip(1).fold(bounds[0], |whole, aabb| whole.union(aabb));
     let (origin, extent) = (whole.min.as_dvec3(), whole.diagonal().as_dvec3());
     let place = |aabb: &Bounds| {
@@ -90,7 +92,7 @@ fn leaves(bounds: &[Bounds]) -> Vec<Bvh2Node> {
     };
     let mut order: Vec<(u128, u32)> = bounds.iter().map(place).zip(0..).collect();
     order.sort_unstable();
-    order.into_iter().map(|(_, index)| Bvh2Node::new(bounds[index as usize], 1, index)).collect()
+    order
 }
 
 /// For each node, which other one makes the smallest box with it, of so many on either side. Of equal ones

@@ -39,7 +39,8 @@ pub(super) fn crease_normals(triangles: &[[Vec3; 3]]) -> Vec<[Vec3; 3]> {
         around[range].iter().map(|triangle| normals[*triangle as usize])
     };
     let crowded = (0..vertex_count).filter(|vertex| around(*vertex).len() > FEW);
-    let trees: HashMap<usize, Tree> = crowded.map(|vertex| (vertex, Tree::new(around(vertex).collect()))).collect();
+    let trees: HashMap<usize, Tree> =
+        crowded.map(|vertex| (vertex, Tree::new(around(vertex).collect()))).collect();
     let least_cosine = CREASE_DEGREES.to_radians().cos();
     let corner_normal = |own: Vec3, vertex: u32| {
         let vertex = vertex as usize;
@@ -134,7 +135,10 @@ impl Tree {
                     left.push((start, half, index + 1));
                 } else {
                     let near = self.normals[start..end].iter();
-                    sum += near.filter(|near| near.normal.dot(direction) >= least_cosine).map(|near| near.sum).sum::<Vec3>();
+                    sum += near
+                        .filter(|near| near.normal.dot(direction) >= least_cosine)
+                        .map(|near| near.sum)
+                        .sum::<Vec3>();
                 }
             }
         }

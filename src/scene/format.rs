@@ -207,7 +207,10 @@ impl SceneFile {
             let vertices = [0, 1, 2].map(|corner| table.vertices.get_ref()[corner].0);
             let shape = Triangle { vertices, normals: None };
             if !shape.has_area() {
-                return Err(fault(&table.vertices, "the three vertices lie on one line, or too near one another"));
+                return Err(fault(
+                    &table.vertices,
+                    "the three vertices lie on one line, or too near one another",
+                ));
             }
             let material = list.find(&table.material)?;
             scene.triangles.push(Shaded { shape, material, velocity: table.velocity.0 });

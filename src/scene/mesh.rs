@@ -58,9 +58,10 @@ impl Mesh {
         let text = std::fs::read(path).map_err(|source| Error::Read { path: path.to_path_buf(), source })?;
         let obj = obj::parse(&text).map_err(|fault| match fault {
             ObjFault::Line(line, message) => Error::Scene { file: file.clone(), line, message },
-            ObjFault::Foreign(Foreign { what, advice }) => {
-                Error::Mesh { file: file.clone(), message: format!("this is no OBJ file, it is {what}; {advice}") }
-            }
+            ObjFault::Foreign(Foreign { what, advice }) => Error::Mesh {
+                file: file.clone(),
+                message: format!("this is no OBJ file, it is {what}; {advice}"),
+            },
         })?;
         if obj.faces.is_empty() {
             let message = "there are no faces ('f' lines); export the mesh as polygons".into();
@@ -77,7 +78,10 @@ impl Mesh {
         for (tally, what) in [
             (&obj.unusable_normals, "normals (vn) have no direction; faces that name them get computed ones"),
             (&obj.short_faces, "faces have fewer than three corners and are left out"),
-            (&obj.crossed_faces, "polygons have edges that cross, and may be cut into other triangles than meant"),
+            (
+                &obj.crossed_faces,
+                "polygons have edges that cross, and may be cut into other triangles than meant",
+            ),
         ] {
             if tally.count > 0 {
                 log::warn!("{file}:{}: {} {what}", tally.line, tally.count);
@@ -130,7 +134,11 @@ impl Mesh {
         }
         let too_small = dropped.iter().filter(|face| self.has_area(face)).count();
         if too_small < dropped.len() {
-            log::warn!("{}: {} triangles have no area and are left out", self.file, dropped.len() - too_small);
+            log::warn!(
+                "{}: {} triangles have no area and are left out",
+                self.file,
+                dropped.len() - too_small
+            );
         }
         if too_small > 0 {
             log::warn!(
@@ -224,7 +232,9 @@ fn colors(path: &Path, file: &str, obj: &Obj) -> Vec<Option<Vec3>> {
     let unknown = obj.materials.iter().zip(&paints).filter(|(_, paint)| paint.is_none());
     if let (Some((name, _)), false) = (unknown.clone().next(), files.is_empty()) {
         let (name, count) = (String::from_utf8_lossy(name), unknown.count());
-        log::warn!("{file}: its MTL files lack {count} of its materials, the first is '{name}'; they are clay");
+        log::warn!(
+            "{file}: its MTL files lack {count} of its materials, the first is '{name}'; they are clay"
+        );
     }
     let pictured = paints.iter().flatten().filter(|paint| paint.pictured).count();
     if pictured > 0 {

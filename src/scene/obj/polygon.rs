@@ -17,6 +17,13 @@ pub(super) struct Polygon {
 /// Shares of a polygon's area that rounding may make.
 const ROUNDING: f64 = 1e-9;
 
+/// How often a polygon may come by each of its positions, on average. One with holes comes by twice where a
+/// line leads to them.
+const MOST_VISITS: usize = 3;
+
+/// Cutting takes up to quadratic time.
+const MOST_CORNERS: usize = 1 << 17;
+
 /// Cuts those polygons anew whose fans reach out of them, and gives the number of those that cannot be cut
 /// right, for their edges cross. Each polygon keeps its number of triangles; some may have no area.
 pub(super) fn cut(polygons: &[Polygon], positions: &[DVec3], faces: &mut [Face]) -> Tally {
@@ -37,12 +44,18 @@ pub(super) fn cut(polygons: &[Polygon], positions: &[DVec3], faces: &mut [Face])
             b.cross(c)
         };
         let normal: DVec3 = fan.iter().map(across).sum();
-        let reaches_out = |triangle: &Face| across(triangle).dot(normal) < -ROUNDING * normal.length_squared();
+        let reaches_out =
+            |triangle: &Face| across(triangle).dot(normal) < -ROUNDING * normal.length_squared();
         if !fan.iter().any(reaches_out) {
             continue;
         }
         cutter.corners.clear();
         cutter.corners.extend(ring());
+        cutter.corners.truncate(period(&cutter.corners));
+        if is_tangled(&cutter.corners) {
+            crossed.note(polygon.line);
+            continue;
+        }
         if !cutter.cut(|corner| place(corner) - first, normal) {
             crossed.note(polygon.line);
         }
@@ -56,6 +69,24 @@ pub(super) fn cut(polygons: &[Polygon], positions: &[DVec3], faces: &mut [Face])
         }
     }
     crossed
+}
+
+/// After how many corners a polygon begins again, that goes round many times.
+fn period(corners: &[Corner]) -> usize {
+    let count = corners.len();
+    let same = |a: &[Corner], b: &[Corner]| a.iter().map(|of| of.position).eq(b.iter().map(|of| of.position));
+    let repeats = |period: &usize| {
+        count.is_multiple_of(*period) && same(&corners[*period..], &corners[..count - period])
+    };
+    (3..=count / 2).find(repeats).unwrap_or(count)
+}
+
+/// Whether it is no polygon, but a line to and fro, which takes long to cut and has no right cut.
+fn is_tangled(corners: &[Corner]) -> bool {
+    let mut positions: Vec<u32> = corners.iter().map(|corner| corner.position).collect();
+    positions.sort_unstable();
+    positions.dedup();
+    corners.len() > MOST_CORNERS || corners.len() > MOST_VISITS * positions.len()
 }
 
 #[derive(Default)]

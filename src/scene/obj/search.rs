@@ -93,8 +93,12 @@ impl Search<'_> {
         let listing = self.listings.entry(folder).or_insert_with_key(|folder| {
             // An empty path is the working folder.
             let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-            let mut names: Vec<OsString> =
-                std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.file_name()).collect();
+            let mut names: Vec<OsString> = std::fs::read_dir(folder)
+                .into_iter()
+                .flatten()
+                .flatten()
+                .map(|entry| entry.file_name())
+                .collect();
             // Of names that differ in case alone, the same one is taken on every computer.
             names.sort_unstable_by(|a, b| b.cmp(a));
             names.into_iter().map(|name| (lower(name.as_encoded_bytes()), name)).collect()

@@ -20,7 +20,7 @@ const DOWNLOAD: &str = "download the file itself again";
 const WRONG: &str = "give the mesh that belongs there";
 
 /// How other files begin. No OBJ or MTL text begins so.
-const FOREIGN: [(&[u8], &str, &str); 29] = [
+const FOREIGN: [(&[u8], &str, &str); 31] = [
     (b"version https://git-lfs", "a pointer of Git LFS to the file", "fetch the file itself: git lfs pull"),
     (b"<", "a web page or XML", DOWNLOAD),
     (b"{", "JSON, such as glTF", EXPORT),
@@ -40,15 +40,17 @@ const FOREIGN: [(&[u8], &str, &str); 29] = [
     (b"BLENDER", "a Blender scene", "open it in Blender and export it as OBJ"),
     (b"OFF\n", "an OFF mesh", EXPORT),
     (b"OFF\r", "an OFF mesh", EXPORT),
-    (b"#usda", "a USD scene", EXPORT),
+    (b"#usda 1", "a USD scene", EXPORT),
     (b"PXR-USDC", "a USD scene", EXPORT),
     (b"xof ", "a DirectX mesh", EXPORT),
-    (b"#VRML", "a VRML scene", EXPORT),
-    (b"#INVENTOR", "an Inventor scene", EXPORT),
+    (b"#VRML V", "a VRML scene", EXPORT),
+    (b"#Inventor V", "an Inventor scene", EXPORT),
     (b"%PDF", "a PDF document", WRONG),
     (b"\x89PNG", "a PNG picture", WRONG),
     (b"\xff\xd8\xff", "a JPEG picture", WRONG),
-    (b"\x7fELF", "a program", WRONG),
+    (b"\x7fELF", "a program or a compiler's object file", WRONG),
+    (b"\x64\x86", "a compiler's object file", WRONG),
+    (b"\x4c\x01", "a compiler's object file", WRONG),
     (b"MZ", "a program", WRONG),
 ];
 
@@ -57,11 +59,63 @@ const SAMPLE: usize = 4096;
 
 /// First words of lines. A line that begins with one is no continuation of the line above.
 const KEYWORDS: [&[u8]; 57] = [
-    b"v", b"vt", b"vn", b"vp", b"p", b"l", b"f", b"fo", b"g", b"s", b"mg", b"o", b"usemtl", b"mtllib",
-    b"usemap", b"maplib", b"lod", b"bevel", b"c_interp", b"d_interp", b"shadow_obj", b"trace_obj", b"ctech",
-    b"stech", b"call", b"csh", b"cstype", b"deg", b"bmat", b"step", b"curv", b"curv2", b"surf", b"parm",
-    b"trim", b"hole", b"scrv", b"sp", b"end", b"con", b"newmtl", b"Ka", b"Kd", b"Ks", b"Ke", b"Tf", b"Tr",
-    b"Ns", b"Ni", b"d", b"illum", b"sharpness", b"bump", b"disp", b"decal", b"refl", b"norm",
+    b"v",
+    b"vt",
+    b"vn",
+    b"vp",
+    b"p",
+    b"l",
+    b"f",
+    b"fo",
+    b"g",
+    b"s",
+    b"mg",
+    b"o",
+    b"usemtl",
+    b"mtllib",
+    b"usemap",
+    b"maplib",
+    b"lod",
+    b"bevel",
+    b"c_interp",
+    b"d_interp",
+    b"shadow_obj",
+    b"trace_obj",
+    b"ctech",
+    b"stech",
+    b"call",
+    b"csh",
+    b"cstype",
+    b"deg",
+    b"bmat",
+    b"step",
+    b"curv",
+    b"curv2",
+    b"surf",
+    b"parm",
+    b"trim",
+    b"hole",
+    b"scrv",
+    b"sp",
+    b"end",
+    b"con",
+    b"newmtl",
+    b"Ka",
+    b"Kd",
+    b"Ks",
+    b"Ke",
+    b"Tf",
+    b"Tr",
+    b"Ns",
+    b"Ni",
+    b"d",
+    b"illum",
+    b"sharpness",
+    b"bump",
+    b"disp",
+    b"decal",
+    b"refl",
+    b"norm",
 ];
 
 /// The text as bytes of which the ASCII ones are ASCII: UTF-16 becomes UTF-8, byte order marks are taken off,
@@ -138,9 +192,9 @@ pub(super) fn lines(text: &[u8]) -> impl Iterator<Item = (usize, Cow<'_, [u8]>)>
             if !goes_on {
                 break;
             }
-            let mut joined = start.to_vec();
+            let mut joined = start.trim_ascii_end().to_vec();
             joined.push(b' ');
-            joined.extend_from_slice(take_line(&mut rest).unwrap_or_default());
+            joined.extend_from_slice(take_line(&mut rest).unwrap_or_default().trim_ascii_start());
             line = Cow::Owned(joined);
             next += 1;
         }
