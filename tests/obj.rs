@@ -274,7 +274,7 @@ fn unusable_normals_and_short_faces_are_left_out() {
         ["nan nan nan", "-nan(ind) -nan(ind) -nan(ind)", "0 0 0", "-0 0 0", "inf 0 0", "1 2", "", "1e999 0 0"]
     {
         let obj = format!(
-            "{CORNERS}vt nan inf\nvn {bad}\nvn 1 0 0\nf 1/1/1 2//1 3//1\nf 1 2\nf 5\nf\nf 1//2 2//2 3//2\n"
+            "{CORNERS}vt nan inf\nvn {bad}\nvn 1 0 0\nf 1/1/1 2//1 3//1\nf 1 2\nf 2\nf\nf 1//2 2//2 3//2\n"
         );
         let triangles = triangles(obj.as_bytes());
         let normals: Vec<_> = triangles.iter().map(|of| of.normals.expect("normals")).collect();

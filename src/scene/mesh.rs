@@ -76,15 +76,12 @@ impl Mesh {
     fn warn_of_faults(&self) {
         let Self { file, obj, .. } = self;
         for (tally, what) in [
-            (&obj.unusable_normals, "normals (vn) have no direction; faces that name them get computed ones"),
-            (&obj.short_faces, "faces have fewer than three corners and are left out"),
-            (
-                &obj.crossed_faces,
-                "polygons have edges that cross, and may be cut into other triangles than meant",
-            ),
+            (&obj.unusable_normals, "normals (vn) without a direction are replaced by computed ones"),
+            (&obj.short_faces, "faces of fewer than three corners are left out"),
+            (&obj.crossed_faces, "polygons whose edges cross may be cut into other triangles than meant"),
         ] {
             if tally.count > 0 {
-                log::warn!("{file}:{}: {} {what}", tally.line, tally.count);
+                log::warn!("{file}:{}: {what} ({} in the file)", tally.line, tally.count);
             }
         }
     }
@@ -213,7 +210,7 @@ fn colors(path: &Path, file: &str, obj: &Obj) -> Vec<Option<Vec3>> {
             Ok(Ok(part)) => {
                 let (faults, first) = (&part.faults, &part.fault);
                 if faults.count > 0 {
-                    log::warn!("{name}:{}: {first}; {} colours are not read", faults.line, faults.count);
+                    log::warn!("{name}:{}: {first} ({} such colours in the file)", faults.line, faults.count);
                 }
                 library.extend(part);
             }

@@ -29,6 +29,7 @@ const MOST_CORNERS: usize = 1 << 17;
 pub(super) fn cut(polygons: &[Polygon], positions: &[DVec3], faces: &mut [Face]) -> Tally {
     let mut crossed = Tally::default();
     let mut cutter = Cutter::default();
+    let mut across: Vec<DVec3> = Vec::new();
     for polygon in polygons {
         let fan = &mut faces[polygon.first as usize..][..polygon.triangles as usize];
         // A fan's triangles are its first corner, and two neighbours each.
@@ -39,14 +40,15 @@ pub(super) fn cut(polygons: &[Polygon], positions: &[DVec3], faces: &mut [Face])
         let ring = || (0..fan.len() + 2).map(corner);
         let place = |corner: Corner| positions[corner.position as usize];
         let first = place(corner(0));
-        let across = |triangle: &Face| {
+        // The normals of the triangles, as long as twice their areas.
+        across.clear();
+        across.extend(fan.iter().map(|triangle| {
             let [_, b, c] = triangle.corners.map(|corner| place(corner) - first);
             b.cross(c)
-        };
-        let normal: DVec3 = fan.iter().map(across).sum();
-        let reaches_out =
-            |triangle: &Face| across(triangle).dot(normal) < -ROUNDING * normal.length_squared();
-        if !fan.iter().any(reaches_out) {
+        }));
+        let normal: DVec3 = across.iter().sum();
+        let least = -ROUNDING * normal.length_squared();
+        if across.iter().all(|across| across.dot(normal) >= least) {
             continue;
         }
         cutter.corners.clear();

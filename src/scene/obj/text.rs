@@ -121,6 +121,7 @@ const KEYWORDS: [&[u8]; 57] = [
 /// The text as bytes of which the ASCII ones are ASCII: UTF-16 becomes UTF-8, byte order marks are taken off,
 /// and any other encoding stays as it is.
 pub(super) fn decode(bytes: &[u8]) -> Result<Cow<'_, [u8]>, Foreign> {
+    refuse_foreign(bytes)?;
     let text = match bytes {
         [0xef, 0xbb, 0xbf, rest @ ..] => Cow::Borrowed(rest),
         [0xff, 0xfe, rest @ ..] => Cow::Owned(from_utf16(rest, u16::from_le_bytes)),
@@ -136,6 +137,14 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Cow<'_, [u8]>, Foreign> {
             _ => Cow::Borrowed(bytes),
         },
     };
+    refuse_foreign(&text)?;
+    if memchr(0, &text[..text.len().min(SAMPLE)]).is_some() {
+        return Err(Foreign { what: "a binary file", advice: EXPORT });
+    }
+    Ok(text)
+}
+
+fn refuse_foreign(text: &[u8]) -> Result<(), Foreign> {
     let start = text.trim_ascii_start();
     if start.is_empty() {
         return Err(Foreign { what: "empty", advice: DOWNLOAD });
@@ -143,10 +152,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Cow<'_, [u8]>, Foreign> {
     if let Some((_, what, advice)) = FOREIGN.iter().find(|(magic, ..)| start.starts_with(magic)) {
         return Err(Foreign { what, advice });
     }
-    if memchr(0, &text[..text.len().min(SAMPLE)]).is_some() {
-        return Err(Foreign { what: "a binary file", advice: EXPORT });
-    }
-    Ok(text)
+    Ok(())
 }
 
 /// How many bytes at even and at odd places are zero, and the number of pairs, in the file's beginning.
