@@ -128,6 +128,20 @@ impl SceneBuffers {
         SAMPLER_LOOP_STEPS + u64::from(self.most_surfaces(max_bounces)) * (1 + shapes + lights * (1 + shapes))
     }
 
+    /// What the most steps of a sample come from.
+    pub fn most_steps_in_words(&self, max_bounces: u32) -> String {
+        let [spheres, boxes, triangles, planes, lights, ..] = self.counts;
+        let shapes = match spheres + boxes + triangles {
+            0 => format!("up to {} steps in the tree of shapes", self.tree_constants[2]),
+            listed => format!("{listed} shapes"),
+        };
+        let reflections = self.most_surfaces(max_bounces) - 1;
+        format!(
+            "{reflections} reflections (--max-bounces), {lights} lights at each surface, and for every ray {planes} \
+             planes and {shapes}"
+        )
+    }
+
     fn most_surfaces(&self, max_bounces: u32) -> u32 {
         if self.reflects { 1 + max_bounces } else { 1 }
     }

@@ -232,9 +232,12 @@ impl Renderer {
             Some(batch) => Ok(batch),
             None if self.device.info().kind != SOFTWARE => Ok(1),
             None => Err(Error::OutOfRange(format!(
-                "the scene can take {steps} steps a sample, but software devices stop at {}; use fewer planes or \
-                 lights, a lower --max-bounces, or a GPU",
-                schedule::MAX_LOOP_STEPS
+                "the scene can take {steps} steps a sample, but software devices stop at {}: {}; use fewer of \
+                 these, or a GPU",
+                schedule::MAX_LOOP_STEPS,
+                self.scene
+                    .as_ref()
+                    .map_or(String::new(), |loaded| loaded.buffers.most_steps_in_words(max_bounces))
             ))),
         }
     }

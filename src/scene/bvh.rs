@@ -2,19 +2,22 @@
 //! node, compressed after H. Ylitie et al., "Efficient Incoherent Ray Traversal on GPUs Through Compressed
 //! Wide BVHs", HPG 2017.
 
+use super::clusters::{along_curve, shallow_tree, tree};
 use super::{Aabb, Shaded, Sphere, Triangle};
 use glam::{DVec3, Vec3, Vec3A};
-use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb as Bounds;
 use obvhs::bvh2::Bvh2;
-use obvhs::bvh2::builder::build_bvh2;
-use std::time::Duration;
+use std::collections::HashSet;
 
 /// Children of a node, at most.
 const WIDTH: usize = 4;
 
 /// The last plane of a node's grid; the first is 0.
 const LAST_PLANE: u8 = u8::MAX;
+
+/// Trees of a million shapes are some 15 nodes deep. One that is deeper than this needs a stack that slows
+/// every step, and loses to the shallowest tree.
+const DEEPEST: u32 = 24;
 
 /// A bounded shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,7 +35,7 @@ pub enum Bounded {
 pub struct Bvh {
     /// Nodes and leaves. The first is the root; the children of a node follow one another, behind it.
     pub records: Vec<Record>,
-    /// The shapes, where they are in the middle of the exposure.
+    /// The shapes, where they are in the middle of the exposure. Copies of others have no leaf.
     pub shapes: Vec<Shaded<Bounded>>,
     /// Nodes on the longest way from the root to a leaf.
     pub depth: u32,
@@ -71,9 +74,11 @@ impl Bvh {
         }
         let bounds: Vec<Bounds> =
             shapes.iter().map(|of| of.shape.bounds(0.5 * shutter * of.velocity.abs())).collect();
-        let params = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::slow_build() };
-        let binary = build_bvh2(&bounds, params, &mut Duration::default());
-        let (records, depth) = widen(&binary);
+        let order = without_copies(&along_curve(&bounds), &shapes);
+        let (mut records, mut depth) = widen(&tree(&bounds, &order));
+        if depth > DEEPEST {
+            (records, depth) = widen(&shallow_tree(&bounds, &order));
+        }
         Some(Self { records, shapes, depth })
     }
 }
@@ -96,6 +101,35 @@ impl Bounded {
         let margin = Vec3::splat(1e-6 * lower.abs().max(upper.abs()).max_element());
         Bounds::new(Vec3A::from(lower - margin), Vec3A::from(upper + margin))
     }
+}
+
+/// The indices of shapes along the curve, of those in one place the first only: no ray sees more of them, but
+/// each would try all.
+fn without_copies(along_curve: &[(u128, u32)], shapes: &[Shaded<Bounded>]) -> Vec<u32> {
+    let mut indices = Vec::with_capacity(along_curve.len());
+    for run in along_curve.chunk_by(|a, b| a.0 == b.0) {
+        let mut known = HashSet::new();
+        let is_new = |index: &u32| run.len() == 1 || known.insert(place(&shapes[*index as usize]));
+        indices.extend(run.iter().map(|(_, index)| *index).filter(is_new));
+    }
+    indices
+}
+
+/// What shapes that always cover one another have in common: their kind, and the bits of numbers.
+fn place(of: &Shaded<Bounded>) -> (u32, [[u32; 3]; 4]) {
+    let (kind, [a, b, c]) = match of.shape {
+        Bounded::Sphere(sphere) => (0, [sphere.center.as_vec3(), Vec3::splat(sphere.radius), Vec3::ZERO]),
+        Bounded::Box(aabb) => (1, [aabb.lower.as_vec3(), aabb.upper.as_vec3(), Vec3::ZERO]),
+        Bounded::Triangle(triangle) => (2, triangle.vertices.map(|vertex| vertex.as_vec3())),
+    };
+    // -0 and 0 are one place.
+    let bits = |vector: Vec3| (vector + Vec3::ZERO).to_array().map(f32::to_bits);
+    let mut corners = [bits(a), bits(b), bits(c)];
+    if kind == 2 {
+        corners.sort_unstable();
+    }
+    let [a, b, c] = corners;
+    (kind, [a, b, c, bits(of.velocity)])
 }
 
 /// The records of a binary tree, and their depth.

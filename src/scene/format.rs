@@ -206,12 +206,14 @@ impl SceneFile {
         }
         for table in &self.triangle {
             let vertices = [0, 1, 2].map(|corner| table.vertices.get_ref()[corner].0);
-            let [a, b, c] = vertices;
-            if (b - a).cross(c - a) == DVec3::ZERO {
-                return Err(fault(&table.vertices, "the three vertices lie on one line"));
+            let shape = Triangle { vertices, normals: None };
+            if !shape.has_area() {
+                return Err(fault(
+                    &table.vertices,
+                    "the three vertices lie on one line, or too near one another",
+                ));
             }
             let material = list.find(&table.material)?;
-            let shape = Triangle { vertices, normals: None };
             scene.triangles.push(Shaded { shape, material, velocity: table.velocity.f32() });
         }
         for table in &self.plane {

@@ -1,15 +1,13 @@
 //! Triangle meshes from OBJ files.
 
-use super::obj::{self, Face, Obj};
+use super::crease::crease_normals;
+use super::obj::{self, Face, Foreign, Library, Obj, ObjFault, Paint};
 use super::{MAX_LENGTH, Material, Scene, Shaded, Triangle};
 use crate::error::{Error, Result};
 use crate::input_file;
 use glam::{DQuat, DVec3, Vec3};
-use std::collections::HashMap;
+use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
-
-/// Where a mesh has no normals, an edge between faces whose normals differ by more stays an edge.
-const CREASE_DEGREES: f32 = 40.0;
 
 /// What a mesh is made of unless something else is said: a clay, with a faint gloss.
 const CLAY: Material = Material {
@@ -61,29 +59,35 @@ impl Mesh {
     pub(super) fn read(path: &Path) -> Result<Self> {
         let file = path.display().to_string();
         let text = input_file::read(path, input_file::MOST_BYTES)?;
-        let obj = obj::parse(&text).map_err(|fault| Error::Scene {
-            file: file.clone(),
-            line: fault.line,
-            message: fault.message,
+        let obj = obj::parse(&text).map_err(|fault| match fault {
+            ObjFault::Line(line, message) => Error::Scene { file: file.clone(), line, message },
+            ObjFault::Foreign(Foreign { what, advice }) => Error::Mesh {
+                file: file.clone(),
+                message: format!("this is no OBJ file, it is {what}; {advice}"),
+            },
         })?;
         if obj.faces.is_empty() {
             let message = "there are no faces ('f' lines); export the mesh as polygons".into();
             return Err(Error::Mesh { file, message });
         }
         let mut files = vec![path.to_path_buf()];
-        let mut library = HashMap::new();
-        for name in &obj.libraries {
-            let path = path.with_file_name(name);
-            match input_file::read(&path, input_file::MOST_BYTES) {
-                Ok(text) => {
-                    library.extend(obj::parse_library(&text));
-                    files.push(path);
-                }
-                Err(error) => log::warn!("{file}: its colours are not read: {error}"),
+        let colors = colors(path, &file, &obj, &mut files);
+        let mesh = Self { file, files, obj, colors };
+        mesh.warn_of_faults();
+        Ok(mesh)
+    }
+
+    fn warn_of_faults(&self) {
+        let Self { file, obj, .. } = self;
+        for (tally, what) in [
+            (&obj.unusable_normals, "normals (vn) without a direction are replaced by computed ones"),
+            (&obj.short_faces, "faces of fewer than three corners are left out"),
+            (&obj.crossed_faces, "polygons whose edges cross may be cut into other triangles than meant"),
+        ] {
+            if tally.count > 0 {
+                log::warn!("{file}:{}: {what} ({} in the file)", tally.line, tally.count);
             }
         }
-        let colors = obj.materials.iter().map(|name| library.get(name).copied()).collect();
-        Ok(Self { file, files, obj, colors })
     }
 
     /// What is wrong with it as a whole.
@@ -93,8 +97,8 @@ impl Mesh {
 
     /// The corners of the box around the faces with the smallest and the largest coordinates.
     pub(super) fn bounds(&self) -> [DVec3; 2] {
-        let corners = self.obj.faces.iter().flat_map(|face| face.positions);
-        let positions = corners.map(|corner| self.obj.positions[corner as usize]);
+        let corners = self.obj.faces.iter().flat_map(|face| face.corners);
+        let positions = corners.map(|corner| self.obj.positions[corner.position as usize]);
         let empty = [DVec3::INFINITY, DVec3::NEG_INFINITY];
         positions.fold(empty, |[lower, upper], position| [lower.min(position), upper.max(position)])
     }
@@ -120,8 +124,9 @@ impl Mesh {
                 "it reaches beyond {MAX_LENGTH:e}, where it is put; give it a smaller scale"
             ));
         }
-        let vertices = |face: &Face| face.positions.map(|corner| positions[corner as usize]);
-        let faces: Vec<&Face> = self.obj.faces.iter().filter(|face| has_area(vertices(face))).collect();
+        let vertices = |face: &Face| face.corners.map(|corner| positions[corner.position as usize]);
+        let shape = |face: &Face| Triangle { vertices: vertices(face), normals: None };
+        let faces: Vec<&Face> = self.obj.faces.iter().filter(|face| shape(face).has_area()).collect();
         let dropped = self.obj.faces.len() - faces.len();
         if faces.is_empty() {
             return fail(
@@ -129,7 +134,10 @@ impl Mesh {
             );
         }
         if dropped > 0 {
-            log::warn!("{}: {dropped} triangles have no area and are left out", self.file);
+            log::warn!(
+                "{}: {dropped} triangles have no area, or one too small for f32, and are left out",
+                self.file
+            );
         }
         let mut own_normals: Vec<Option<[Vec3; 3]>> =
             faces.iter().map(|face| self.file_normals(face, placement)).collect();
@@ -151,13 +159,13 @@ impl Mesh {
         Ok(())
     }
 
-    /// The unit normals of a face in the file, if it has three.
+    /// The unit normals of a face in the file, if it has three that can be used.
     fn file_normals(&self, face: &Face, placement: &Placement) -> Option<[Vec3; 3]> {
-        let unit = |index: u32| {
-            let normal = placement.rotation * self.obj.normals[index as usize].as_dvec3();
-            normal.try_normalize().map(|normal| normal.as_vec3())
+        let unit = |normal: Option<NonZeroU32>| {
+            let normal = self.obj.normals[normal?.get() as usize - 1].as_dvec3();
+            (placement.rotation * normal).try_normalize().map(|normal| normal.as_vec3())
         };
-        let [a, b, c] = face.normals?.map(unit);
+        let [a, b, c] = face.corners.map(|corner| unit(corner.normal));
         Some([a?, b?, c?])
     }
 
@@ -171,7 +179,8 @@ impl Mesh {
                 let named = self.obj.materials.iter().zip(&self.colors);
                 named
                     .map(|(name, color)| {
-                        color.map_or(default, |color| scene.add_material(name, matte(color)))
+                        let name = String::from_utf8_lossy(name);
+                        color.map_or(default, |color| scene.add_material(&name, matte(color)))
                     })
                     .collect()
             }
@@ -180,58 +189,46 @@ impl Mesh {
     }
 }
 
-/// Whether the normal of a triangle can be made a unit vector, in f32 too.
-fn has_area([a, b, c]: [DVec3; 3]) -> bool {
-    (b - a).cross(c - a).length_squared() >= f64::from(f32::MIN_POSITIVE)
-}
-
-/// Unit normals for triangles without: at each corner the mean over the triangles around its
-/// position, by area, of those within the crease angle of this one.
-fn crease_normals(triangles: &[[DVec3; 3]]) -> Vec<[Vec3; 3]> {
-    let normals: Vec<(Vec3, f32)> = triangles
-        .iter()
-        .map(|[a, b, c]| {
-            let across = (b - a).cross(c - a);
-            let area = across.length();
-            ((across / area).as_vec3(), area as f32)
-        })
-        .collect();
-    let vertex_of_corner = merge(triangles.as_flattened());
-    let vertex_count = vertex_of_corner.iter().max().map_or(0, |last| *last as usize + 1);
-    // The triangles around vertex v are around[start[v] .. start[v + 1]].
-    let mut start = vec![0_u32; vertex_count + 1];
-    vertex_of_corner.iter().for_each(|vertex| start[*vertex as usize + 1] += 1);
-    (0..vertex_count).for_each(|vertex| start[vertex + 1] += start[vertex]);
-    let mut next = start.clone();
-    let mut around = vec![0_u32; vertex_of_corner.len()];
-    for (triangle, corners) in (0_u32..).zip(vertex_of_corner.chunks_exact(3)) {
-        for vertex in corners {
-            let slot = &mut next[*vertex as usize];
-            around[*slot as usize] = triangle;
-            *slot += 1;
+/// The diffuse colour of each of a mesh's materials, where its MTL files have one.
+fn colors(path: &Path, file: &str, obj: &Obj, read: &mut Vec<PathBuf>) -> Vec<Option<Vec3>> {
+    let (files, missing) = obj::find_libraries(path.parent().unwrap_or(Path::new("")), &obj.libraries);
+    let mut library = Library::default();
+    for path in &files {
+        let name = path.display();
+        match input_file::read(path, input_file::MOST_BYTES).map(|text| obj::parse_library(&text)) {
+            Ok(Ok(part)) => {
+                read.push(path.clone());
+                let (faults, first) = (&part.faults, &part.fault);
+                if faults.count > 0 {
+                    log::warn!("{name}:{}: {first} ({} such colours in the file)", faults.line, faults.count);
+                }
+                library.extend(part);
+            }
+            Ok(Err(Foreign { what, advice })) => {
+                log::warn!("{file}: its colours in {name} are not read: it is {what}; {advice}");
+            }
+            Err(error) => log::warn!("{file}: its colours are not read: {error}"),
         }
     }
-    let least_cosine = CREASE_DEGREES.to_radians().cos();
-    let corner_normal = |own: Vec3, vertex: u32| {
-        let range = start[vertex as usize] as usize..start[vertex as usize + 1] as usize;
-        let near = around[range].iter().map(|triangle| normals[*triangle as usize]);
-        let sum = near.filter(|(normal, _)| normal.dot(own) >= least_cosine).map(|(n, area)| area * n);
-        sum.sum::<Vec3>().try_normalize().unwrap_or(own)
-    };
-    let of_triangle = |((own, _), corners): (&(Vec3, f32), &[u32])| {
-        [0, 1, 2].map(|corner: usize| corner_normal(*own, corners[corner]))
-    };
-    normals.iter().zip(vertex_of_corner.chunks_exact(3)).map(of_triangle).collect()
-}
-
-/// A number from 0 for each position, the same for equal ones: files repeat positions along seams.
-fn merge(positions: &[DVec3]) -> Vec<u32> {
-    let mut numbers = HashMap::with_capacity(positions.len() / 4);
-    let number = |position: &DVec3| {
-        // -0 and 0 are one place.
-        let key = (*position + DVec3::ZERO).to_array().map(f64::to_bits);
-        let next = u32::try_from(numbers.len()).unwrap_or(u32::MAX);
-        *numbers.entry(key).or_insert(next)
-    };
-    positions.iter().map(number).collect()
+    if let Some(first) = missing.first() {
+        let (first, more) = (String::from_utf8_lossy(first), missing.len() - 1);
+        let others = if more > 0 { format!(", nor are those in {more} others") } else { String::new() };
+        log::warn!("{file}: its colours in '{first}' are not read{others}: put the MTL file beside the mesh");
+    }
+    let paints: Vec<Option<Paint>> = obj.materials.iter().map(|name| library.find(name)).collect();
+    let unknown = obj.materials.iter().zip(&paints).filter(|(_, paint)| paint.is_none());
+    if let (Some((name, _)), false) = (unknown.clone().next(), files.is_empty()) {
+        let (name, count) = (String::from_utf8_lossy(name), unknown.count());
+        log::warn!(
+            "{file}: its MTL files lack {count} of its materials, the first is '{name}'; they are clay"
+        );
+    }
+    let pictured = paints.iter().flatten().filter(|paint| paint.pictured).count();
+    if pictured > 0 {
+        log::warn!(
+            "{file}: {pictured} of its materials have a picture (map_Kd), and pictures are not read; they are \
+             shown in their colour Kd, or in grey where that is black or missing"
+        );
+    }
+    paints.iter().map(|paint| paint.and_then(|paint| paint.color())).collect()
 }

@@ -6,6 +6,8 @@ mod builtin;
 mod bvh;
 mod camera;
 mod camera_format;
+mod clusters;
+mod crease;
 mod file;
 mod format;
 mod light;

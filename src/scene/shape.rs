@@ -59,6 +59,17 @@ pub struct Triangle {
     pub normals: Option<[Vec3; 3]>,
 }
 
+impl Triangle {
+    /// Whether it has an area beyond what rounding makes of none, and a normal that can be made a unit vector, in
+    /// f32 too.
+    pub(super) fn has_area(&self) -> bool {
+        let [a, b, c] = self.vertices;
+        let longest = (b - a).length_squared().max((c - a).length_squared());
+        let area = (b - a).cross(c - a).length_squared();
+        area > (1e-9 * longest).powi(2) && area >= f64::from(f32::MIN_POSITIVE)
+    }
+}
+
 /// An infinite plane, seen from both sides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane {

@@ -128,12 +128,12 @@ material = "burning"
 pub fn one_behind_the_other() -> String {
     let mut toml = String::from("[emissive.m]\nradiance = 1\n");
     let mut at = 1.0;
-    for _ in 0..72 {
+    for _ in 0..160 {
         let beside = 0.8 * at;
         toml += &format!(
             "[[triangle]]\nvertices = [[{at}, -{at}, -{at}], [{at}, {beside}, -{at}], [{at}, -{at}, {beside}]]\nmaterial = \"m\"\n"
         );
-        at *= 1.32;
+        at *= 1.13;
     }
     toml += &format!(
         "[[box]]\nlower = [{at}, -{at}, -{at}]\nupper = [{}, {at}, {at}]\nmaterial = \"m\"\n",
