@@ -1,15 +1,16 @@
-//! How bright what a pixel's rays can meet is at most: what an adaptive picture reckons with where its samples have
-//! not met it yet. See `shaders/include/adaptive.glsl`.
+//! How bright what a pixel's rays can meet is: what an adaptive picture reckons with where its samples have not met
+//! it yet. See `shaders/include/adaptive.glsl`.
 
 use super::Camera;
-use crate::scene::{Frame, Material, Plane, Scene};
+use crate::scene::{Frame, Material, Plane, Scene, Shaded};
 use crate::settings::Estimator;
 use glam::{DVec2, DVec3, Vec3};
 
-/// No sample of a pixel has more luminance than this, for each cell of a grid over the picture.
+/// The luminance of the brightest thing that a pixel's rays can meet, for each cell of a grid over the picture.
 ///
 /// A shape counts in the rectangle that bounds its picture through all points of the opening and at all times,
-/// whatever stands before it, and a mirror as though it showed the brightest thing of the scene.
+/// whatever stands before it; at its brightest, where all lights meet it head-on and its highlight is; and a mirror
+/// as bright as the brightest thing of the scene in it, wherever that is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Brightest {
     /// Of each cell, row by row from the top left.
@@ -46,28 +47,21 @@ impl Brightest {
         }
         // What is no brighter than this need not be looked for.
         let least = grid.luminances.iter().copied().fold(f32::INFINITY, f32::min);
-        let mut coverages: Vec<Option<Coverage>> = of_materials
-            .iter()
-            .map(|bright| (*bright > least).then(|| Coverage::new([columns, rows], cell)))
-            .collect();
-        let mut cover = |material: u32, velocity: Vec3, corners: &dyn Fn() -> Vec<DVec3>| {
-            if let Some(coverage) = &mut coverages[material as usize] {
-                coverage.add(view.area(&corners(), velocity));
-            }
-        };
+        let cover = |bright: &f32| (*bright > least).then(|| Coverage::new([columns, rows], cell));
+        let mut coverages: Vec<Option<Coverage>> = of_materials.iter().map(cover).collect();
         for of in &scene.spheres {
             let (center, radius) = (of.shape.center.as_dvec3(), f64::from(of.shape.radius));
             let Frame { world_from_camera } = view.frame;
             let corner = |corner: DVec3| center + world_from_camera * (radius * (2.0 * corner - 1.0));
-            cover(of.material, of.velocity, &|| unit_corners().map(corner).collect());
+            cover_shape(&mut coverages, &view, of, unit_corners().map(corner));
         }
         for of in &scene.boxes {
             let (lower, upper) = (of.shape.lower.as_dvec3(), of.shape.upper.as_dvec3());
             let corner = |corner: DVec3| lower + corner * (upper - lower);
-            cover(of.material, of.velocity, &|| unit_corners().map(corner).collect());
+            cover_shape(&mut coverages, &view, of, unit_corners().map(corner));
         }
         for of in &scene.triangles {
-            cover(of.material, of.velocity, &|| of.shape.vertices.map(|vertex| vertex.as_dvec3()).to_vec());
+            cover_shape(&mut coverages, &view, of, of.shape.vertices.iter().map(|vertex| vertex.as_dvec3()));
         }
         for (bright, coverage) in of_materials.iter().zip(&coverages) {
             for cell in coverage.iter().flat_map(Coverage::covered) {
@@ -77,7 +71,7 @@ impl Brightest {
         grid
     }
 
-    /// The bound for a pixel.
+    /// Of a pixel.
     pub fn at(&self, [x, y]: [u32; 2]) -> f32 {
         self.luminances[(y / self.cell * self.columns + x / self.cell) as usize]
     }
@@ -172,12 +166,15 @@ impl View {
     ///
     /// From one point of the lens it is seen within its corners, for perspective keeps it convex. A point at depth
     /// z is seen from all of them in a blur of radius `R |1/z - 1/F|` on the view plane.
-    fn area(&self, corners: &[DVec3], velocity: Vec3) -> Area {
-        let way = self.half_shutter * velocity.as_dvec3();
+    fn area(&self, corners: impl Iterator<Item = DVec3>, velocity: Vec3) -> Area {
+        let way = velocity.as_dvec3();
+        let times: &[f64] =
+            if velocity == Vec3::ZERO { &[0.0] } else { &[-self.half_shutter, self.half_shutter] };
         let mut area = Area { from: DVec2::INFINITY, to: DVec2::NEG_INFINITY };
         let (mut any_before, mut any_behind) = (false, false);
-        for corner in corners.iter().flat_map(|corner| [*corner - way, *corner + way]) {
-            let at = self.frame.world_from_camera.transpose() * (corner - self.eye);
+        let camera_from_world = self.frame.world_from_camera.transpose();
+        for corner in corners.flat_map(|corner| times.iter().map(move |time| corner + *time * way)) {
+            let at = camera_from_world * (corner - self.eye);
             if at.z >= 0.0 {
                 any_behind = true;
                 continue;
@@ -216,6 +213,18 @@ impl View {
                 height * normal.dot(slope.extend(-1.0)) >= 0.0
             })
         })
+    }
+}
+
+/// Covers where a convex shape with these corners is seen, if its material has a coverage.
+fn cover_shape<T>(
+    coverages: &mut [Option<Coverage>],
+    view: &View,
+    of: &Shaded<T>,
+    corners: impl Iterator<Item = DVec3>,
+) {
+    if let Some(coverage) = &mut coverages[of.material as usize] {
+        coverage.add(view.area(corners, of.velocity));
     }
 }
 

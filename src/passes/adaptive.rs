@@ -12,7 +12,7 @@ pub struct Adaptive {
     moments: [Arc<Image>; 2],
     /// The active pixels, and those of the selection before or after: their number, then a pixel each.
     lists: [Arc<Buffer>; 2],
-    /// A bound on the luminance of samples: see [`Brightest`].
+    /// See [`Brightest`].
     brightest: Arc<Buffer>,
 }
 
@@ -68,7 +68,7 @@ impl Adaptive {
         (binding, Binding::Buffer(Arc::clone(&self.lists[list])))
     }
 
-    /// Writes the bound on the luminance of samples.
+    /// Writes how bright what rays can meet is.
     pub fn record_brightest(&self, recording: &mut Recording<'_>, brightest: &Brightest) {
         recording.update_buffer(&self.brightest, bytemuck::cast_slice(&brightest.luminances));
     }
