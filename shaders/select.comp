@@ -3,7 +3,8 @@
 
 // Between batches of an adaptive picture: lists the pixels to go on with. One stops when its error and
 // that of every pixel around it are small enough, so that no edge stops because its samples happened to
-// fall on one side. A pixel that has stopped never starts again.
+// fall on one side, and when little can be lost of what none of them has met. A pixel that has stopped never
+// starts again.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -15,9 +16,13 @@ layout(set = 0, binding = 15, r32f) readonly uniform image2D film_moments;
 
 layout(set = 0, binding = 14, std430) buffer KeptPixels { uint kept_pixels[]; }; // as the active ones
 
+// The most luminance of what rays can meet, for each cell of a grid over the picture.
+layout(set = 0, binding = 2, std430) readonly buffer BrightestBuffer { float brightest[]; };
+
 layout(push_constant, std430) uniform SelectPush {
     Lattice lattice;
     float threshold;
+    uint cell; // width and height of a cell of brightest, in pixels
 } push;
 
 // How far around a pixel all must be still enough.
@@ -27,10 +32,13 @@ shared uint kept_in_group;
 shared uint first_of_group;
 
 bool has_noise_around(ivec2 pixel) {
+    uint columns = (push.lattice.extent.x + push.cell - 1u) / push.cell;
     for (int y = -DILATION; y <= DILATION; ++y) {
         for (int x = -DILATION; x <= DILATION; ++x) {
             ivec2 near = clamp(pixel + ivec2(x, y), ivec2(0), ivec2(push.lattice.extent) - 1);
-            if (relative_error(imageLoad(film_image, near), imageLoad(film_moments, near).r) >= push.threshold) {
+            uint cell = uint(near.y) / push.cell * columns + uint(near.x) / push.cell;
+            vec4 film = imageLoad(film_image, near);
+            if (is_noisy(film, imageLoad(film_moments, near).r, brightest[cell], push.threshold)) {
                 return true;
             }
         }

@@ -47,7 +47,7 @@ fn twins() -> Vec<Twin> {
         twin!("Lattice", Lattice, [extent, origin, stride]),
         twin!("TracePush", TracePush, [camera, lattice, seed, max_bounces, first_sample, sample_count]),
         twin!("AccumulatePush", AccumulatePush, [lattice, seed, first_sample, jitter, reach]),
-        twin!("SelectPush", SelectPush, [lattice, threshold]),
+        twin!("SelectPush", SelectPush, [lattice, threshold, cell]),
         twin!(
             "Aperture",
             Aperture,

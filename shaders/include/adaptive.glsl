@@ -63,4 +63,31 @@ float relative_error(vec4 film, float moment) {
     return film.w < 2.0 ? 1e30 : sqrt(variance_of_mean) / max(luminance(film.rgb), DARKEST);
 }
 
+// Samples that all miss a lamp have no variance, and say nothing of the light that it would add. What is met
+// with probability p stays unseen in all of N samples with (1 - p)^N, and then p times its brightness is lost.
+// That is 1 / (e N) of the brightness on average at most: where p is 1 / N.
+//
+// So much can be lost of the brightest thing that the pixel's rays can meet, as a share of its mean. N counts
+// the samples of the pixels around it too, for it goes on if one of them meets something.
+float most_lost(vec4 film, float brightest) {
+    const float E = 2.718281828;
+    const float PIXELS_AROUND = 9.0;
+    float mean = luminance(film.rgb);
+    return max(brightest - mean, 0.0) / (E * PIXELS_AROUND * film.w * max(mean, DARKEST));
+}
+
+// What is lost may be no more than this, whatever error is allowed: it would be missing from whole discs.
+const float MOST_LOST = 0.02;
+
+// A larger threshold counts as this. It is the error of 25 hits; a pixel that stops with fewer stops because
+// they came early, and is too bright: D. Kirk and J. Arvo, "Unbiased Sampling Techniques for Image Synthesis",
+// SIGGRAPH 1991.
+const float LARGEST_THRESHOLD = 0.2;
+
+// Whether a pixel needs more samples, by itself.
+bool is_noisy(vec4 film, float moment, float brightest, float threshold) {
+    return relative_error(film, moment) >= min(threshold, LARGEST_THRESHOLD)
+        || most_lost(film, brightest) >= min(threshold, MOST_LOST);
+}
+
 #endif

@@ -102,7 +102,9 @@ pub struct SettingsArgs {
     #[arg(long, value_name = "blue-noise|sobol|random", value_parser = one_of(&Sampler::NAMES), hide_possible_values = true)]
     sampler: Option<Sampler>,
     /// Stops each pixel whose error is below this share of its brightness, 0.02 say, so that the work goes
-    /// where the noise is; --samples is then the most that a pixel gets [default: 0, none stops]
+    /// where the noise is; more than 0.2 counts as 0.2. Pixels that a lamp or mirror image may reach go on until
+    /// they can lose 2% of their brightness at most by not having met it. --samples is then the most that a
+    /// pixel gets [default: 0, none stops]
     #[arg(long, value_name = "E", allow_negative_numbers = true)]
     noise_threshold: Option<f32>,
     /// Chooses other random points [default: 0]

@@ -3,9 +3,11 @@
 #![allow(missing_docs, reason = "the fields are documented where the shaders declare them")]
 
 mod aperture;
+mod brightest;
 mod scene;
 
 pub use aperture::{Aperture, ApertureBuffer, aperture_constant, aperture_sums};
+pub use brightest::Brightest;
 pub use scene::{SceneData, Tree};
 
 use crate::scene::{CameraModel, Hole, Overlay};
@@ -176,6 +178,7 @@ pub struct AccumulatePush {
 pub struct SelectPush {
     pub lattice: Lattice,
     pub threshold: f32,
+    pub cell: u32,
 }
 
 /// `ResolvePush` of resolve.comp.

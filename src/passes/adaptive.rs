@@ -2,7 +2,8 @@
 //! `shaders/include/adaptive.glsl`.
 
 use crate::error::Result;
-use crate::vulkan::{Binding, Buffer, Device, Image, Residence};
+use crate::gpu_types::Brightest;
+use crate::vulkan::{Binding, Buffer, Device, Image, Recording, Residence};
 use std::sync::Arc;
 
 /// Second moments and lists of pixels; of one pixel, where the picture is not adaptive.
@@ -11,6 +12,8 @@ pub struct Adaptive {
     moments: [Arc<Image>; 2],
     /// The active pixels, and those of the selection before or after: their number, then a pixel each.
     lists: [Arc<Buffer>; 2],
+    /// See [`Brightest`].
+    brightest: Arc<Buffer>,
 }
 
 impl Adaptive {
@@ -25,10 +28,13 @@ impl Adaptive {
         let size = size.unwrap_or([1, 1]);
         let moments = |name| Image::r32f(device, name, size).map(Arc::new);
         let bytes = Self::LIST_HEADER * (1 + u64::from(size[0]) * u64::from(size[1]));
+        let [_, columns, rows] = Brightest::grid(size);
+        let cells = size_of::<f32>() as u64 * u64::from(columns * rows);
         let list = || Buffer::new(device, "active pixels", bytes, Residence::Device).map(Arc::new);
         Ok(Self {
             moments: [moments("moments of the tracing image")?, moments("moments of the film")?],
             lists: [list()?, list()?],
+            brightest: Buffer::new(device, "brightest", cells, Residence::Device).map(Arc::new)?,
         })
     }
 
@@ -60,6 +66,15 @@ impl Adaptive {
     /// One of the lists, bound there.
     pub fn bind_list(&self, binding: u32, list: usize) -> (u32, Binding) {
         (binding, Binding::Buffer(Arc::clone(&self.lists[list])))
+    }
+
+    /// Writes how bright what rays can meet is.
+    pub fn record_brightest(&self, recording: &mut Recording<'_>, brightest: &Brightest) {
+        recording.update_buffer(&self.brightest, bytemuck::cast_slice(&brightest.luminances));
+    }
+
+    pub(super) fn bind_brightest(&self) -> (u32, Binding) {
+        (2, Binding::Buffer(Arc::clone(&self.brightest)))
     }
 
     pub(super) fn bind_batch_moments(&self) -> (u32, Binding) {

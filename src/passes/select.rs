@@ -38,7 +38,8 @@ impl Select {
         adaptive: &Adaptive,
         list: usize,
     ) -> Result<BindingSet> {
-        let others = [adaptive.bind_list(14, 1 - list), adaptive.bind_film_moments()];
+        let others =
+            [adaptive.bind_list(14, 1 - list), adaptive.bind_film_moments(), adaptive.bind_brightest()];
         BindingSet::new(&self.0, &[&adaptive.bind_images(batch, film, list)[..], &others].concat())
     }
 

@@ -3,7 +3,7 @@
 use super::schedule::{self, Cursor, Pass, Stage, reach};
 use super::tally::Work;
 use super::{Pace, Renderer};
-use crate::gpu_types::{AccumulatePush, ApertureBuffer, Camera, Counters, SelectPush, TracePush};
+use crate::gpu_types::{AccumulatePush, ApertureBuffer, Brightest, Camera, Counters, SelectPush, TracePush};
 use crate::passes::Adaptive;
 use crate::settings::{Estimator, Settings};
 use crate::vulkan::Recording;
@@ -143,8 +143,12 @@ impl Renderer {
                 Stage::Select => {
                     if at == [0, 0] {
                         recording.clear_buffer(film.adaptive.list(1 - list), Adaptive::LIST_HEADER);
+                        if self.list.is_none() {
+                            film.adaptive.record_brightest(recording, &Brightest::new(estimator));
+                        }
                     }
-                    let push = SelectPush { lattice, threshold: estimator.noise_threshold };
+                    let [cell, ..] = Brightest::grid(estimator.size);
+                    let push = SelectPush { lattice, threshold: estimator.noise_threshold, cell };
                     passes.select.as_ref()?.record(recording, &film.select.as_ref()?[list], &push, tile);
                 }
             }

@@ -141,3 +141,47 @@ pub fn one_behind_the_other() -> String {
     );
     toml
 }
+
+/// The diameter of the lens and its focal distance, and how deep a lamp stands, for [`a_lamp_at_night`].
+pub struct Night {
+    pub lens: f64,
+    pub focal_distance: f64,
+    pub depth: f64,
+}
+
+impl Night {
+    /// Such that what stands there blurs over `across` pixels of a picture of this height: from
+    /// `D (1/F - 1/z) k`.
+    pub fn new(height: u32, across: f64) -> Self {
+        let (lens, depth) = (6.0, 100.0);
+        let k = f64::from(height) / 2.0 / 20f64.to_radians().tan();
+        Self { lens, focal_distance: 1.0 / (across / (lens * k) + 1.0 / depth), depth }
+    }
+
+    /// How wide the cone of rays of a film point is at the lamp.
+    pub fn cone(&self) -> f64 {
+        self.lens * (self.depth - self.focal_distance) / self.focal_distance
+    }
+
+    /// The camera, and a dark sky.
+    pub fn toml(&self) -> String {
+        format!(
+            "[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, -1]\nvfov_degrees = 40\nlens_diameter = {}\n\
+             focal_distance = {}\n[background]\ncolor = [0.02, 0.02, 0.02]\n",
+            self.lens, self.focal_distance
+        )
+    }
+}
+
+/// A lamp in the middle of the night, so far out of focus that its disc is `across` pixels wide in a picture of
+/// this height. So large a share of the rays of the disc's pixels meets it.
+pub fn a_lamp_at_night(height: u32, across: f64, share: f64, radiance: f64) -> String {
+    let night = Night::new(height, across);
+    let radius = 0.5 * night.cone() * share.sqrt();
+    format!(
+        "{}[emissive.lamp]\nradiance = {radiance}\n[[sphere]]\ncenter = [0, 0, -{}]\nradius = {radius}\n\
+         material = \"lamp\"\n",
+        night.toml(),
+        night.depth
+    )
+}

@@ -1,0 +1,280 @@
+//! How bright what a pixel's rays can meet is: what an adaptive picture reckons with where its samples have not met
+//! it yet. See `shaders/include/adaptive.glsl`.
+
+use super::Camera;
+use crate::scene::{Frame, Material, Plane, Scene, Shaded};
+use crate::settings::Estimator;
+use glam::{DVec2, DVec3, Vec3};
+
+/// The luminance of the brightest thing that a pixel's rays can meet, for each cell of a grid over the picture.
+///
+/// A shape counts in the rectangle that bounds its picture through all points of the opening and at all times,
+/// whatever stands before it; at its brightest, where all lights meet it head-on and its highlight is; and a mirror
+/// as bright as the brightest thing of the scene in it, wherever that is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Brightest {
+    /// Of each cell, row by row from the top left.
+    pub luminances: Vec<f32>,
+    /// Width and height of a cell in pixels.
+    pub cell: u32,
+    columns: u32,
+}
+
+impl Brightest {
+    /// The most cells there are: these fit into one update of a buffer.
+    pub const MOST_CELLS: u32 = 16384;
+
+    /// The width and height in pixels of a cell, the smallest that makes few enough of them, and how many columns
+    /// and rows there are.
+    pub fn grid(size: [u32; 2]) -> [u32; 3] {
+        let cells = |edge: u32| size.map(|length| length.div_ceil(edge));
+        let fits = |[columns, rows]: [u32; 2]| columns.saturating_mul(rows) <= Self::MOST_CELLS;
+        let cell = (1..).find(|edge| fits(cells(*edge))).unwrap_or(u32::MAX);
+        let [columns, rows] = cells(cell);
+        [cell, columns, rows]
+    }
+
+    /// For a picture of these settings.
+    pub fn new(estimator: &Estimator) -> Self {
+        let [cell, columns, rows] = Self::grid(estimator.size);
+        let scene = &*estimator.scene;
+        let of_materials = luminances(scene, estimator.max_bounces);
+        let sky = luminance(sky(scene)) as f32;
+        let mut grid = Self { luminances: vec![sky; (columns * rows) as usize], cell, columns };
+        let view = View::new(estimator);
+        for plane in &scene.planes {
+            grid.raise(of_materials[plane.material as usize], |cell| view.sees(&plane.shape, cell));
+        }
+        // What is no brighter than this need not be looked for.
+        let least = grid.luminances.iter().copied().fold(f32::INFINITY, f32::min);
+        let cover = |bright: &f32| (*bright > least).then(|| Coverage::new([columns, rows], cell));
+        let mut coverages: Vec<Option<Coverage>> = of_materials.iter().map(cover).collect();
+        for of in &scene.spheres {
+            let (center, radius) = (of.shape.center, f64::from(of.shape.radius));
+            let Frame { world_from_camera } = view.frame;
+            let corner = |corner: DVec3| center + world_from_camera * (radius * (2.0 * corner - 1.0));
+            cover_shape(&mut coverages, &view, of, unit_corners().map(corner));
+        }
+        for of in &scene.boxes {
+            let (lower, upper) = (of.shape.lower, of.shape.upper);
+            let corner = |corner: DVec3| lower + corner * (upper - lower);
+            cover_shape(&mut coverages, &view, of, unit_corners().map(corner));
+        }
+        for of in &scene.triangles {
+            cover_shape(&mut coverages, &view, of, of.shape.vertices.into_iter());
+        }
+        for (bright, coverage) in of_materials.iter().zip(&coverages) {
+            for cell in coverage.iter().flat_map(Coverage::covered) {
+                grid.luminances[cell] = grid.luminances[cell].max(*bright);
+            }
+        }
+        grid
+    }
+
+    /// Of a pixel.
+    pub fn at(&self, [x, y]: [u32; 2]) -> f32 {
+        self.luminances[(y / self.cell * self.columns + x / self.cell) as usize]
+    }
+
+    /// Makes the cells at least so bright that see something.
+    fn raise(&mut self, bright: f32, sees: impl Fn(Area) -> bool) {
+        let edge = f64::from(self.cell);
+        for (luminance, index) in self.luminances.iter_mut().zip(0..) {
+            let from = edge * DVec2::new(f64::from(index % self.columns), f64::from(index / self.columns));
+            if bright > *luminance && sees(Area { from, to: from + edge }) {
+                *luminance = bright;
+            }
+        }
+    }
+}
+
+fn luminance(color: DVec3) -> f64 {
+    color.dot(DVec3::new(0.2126, 0.7152, 0.0722))
+}
+
+fn sky(scene: &Scene) -> DVec3 {
+    scene.background.horizon.max(scene.background.zenith).as_dvec3()
+}
+
+/// How bright each material can look: by itself, or by what is brightest in its mirror image.
+fn luminances(scene: &Scene, max_bounces: u32) -> Vec<f32> {
+    let light: DVec3 = scene.lights.iter().map(|light| light.radiance.as_dvec3()).sum();
+    let own: Vec<DVec3> = scene
+        .materials
+        .iter()
+        .map(|material| unmirrored(material, light, scene.ambient.as_dvec3()))
+        .collect();
+    let mut seen = own.clone();
+    let mirrors = scene.materials.iter().any(|material| material.reflectance != Vec3::ZERO);
+    for _ in 0..if mirrors { max_bounces } else { 0 } {
+        let most = seen.iter().copied().fold(sky(scene), DVec3::max);
+        for ((seen, own), material) in seen.iter_mut().zip(&own).zip(&scene.materials) {
+            // Not zero times infinity, which is what mirrors that amplify come to.
+            let mirrored = material.reflectance.as_dvec3() * most;
+            *seen = own.max(DVec3::select(material.reflectance.cmpeq(Vec3::ZERO), DVec3::ZERO, mirrored));
+        }
+    }
+    seen.into_iter().map(|color| luminance(color) as f32).collect()
+}
+
+/// Without its mirror image: as seen where all lights meet it head-on, and where its highlight is.
+fn unmirrored(material: &Material, light: DVec3, ambient: DVec3) -> DVec3 {
+    let odd = material.checker.as_ref().map_or(Vec3::ZERO, |checker| checker.odd_color);
+    let color = material.color.max(odd).as_dvec3();
+    let reflected = f64::from(material.kd) * std::f64::consts::FRAC_1_PI * color + f64::from(material.ks);
+    material.emission.as_dvec3() + f64::from(material.ka) * color * ambient + reflected * light
+}
+
+/// A rectangle of the picture, in pixels from its top left corner.
+#[derive(Debug, Clone, Copy)]
+struct Area {
+    from: DVec2,
+    to: DVec2,
+}
+
+/// How points get onto the film.
+struct View {
+    frame: Frame,
+    eye: DVec3,
+    lens_radius: f64,
+    inverse_focal_distance: f64,
+    /// From the view plane at distance one to pixels, y down.
+    pixels: DVec2,
+    film_centre: DVec2,
+    /// How far from its start pixel a sample can be, beyond its own edge, and half a pixel for rounding.
+    margin: f64,
+    half_shutter: f64,
+}
+
+impl View {
+    fn new(estimator: &Estimator) -> Self {
+        let camera = Camera::new(estimator);
+        let [width, height] = estimator.size.map(f64::from);
+        Self {
+            frame: estimator.camera.frame(),
+            eye: estimator.camera.eye,
+            lens_radius: f64::from(camera.lens_radius),
+            inverse_focal_distance: f64::from(camera.inverse_focal_distance),
+            pixels: DVec2::new(1.0, -1.0) / f64::from(camera.inverse_view_distance),
+            film_centre: 0.5 * DVec2::new(width, height),
+            margin: 0.5 * f64::from(camera.jitter).max(1.0),
+            half_shutter: 0.5 * f64::from(estimator.shutter),
+        }
+    }
+
+    /// Where a convex shape with these corners is seen.
+    ///
+    /// From one point of the lens it is seen within its corners, for perspective keeps it convex. A point at depth
+    /// z is seen from all of them in a blur of radius `R |1/z - 1/F|` on the view plane.
+    fn area(&self, corners: impl Iterator<Item = DVec3>, velocity: Vec3) -> Area {
+        let way = velocity.as_dvec3();
+        let times: &[f64] =
+            if velocity == Vec3::ZERO { &[0.0] } else { &[-self.half_shutter, self.half_shutter] };
+        let mut area = Area { from: DVec2::INFINITY, to: DVec2::NEG_INFINITY };
+        let (mut any_before, mut any_behind) = (false, false);
+        let camera_from_world = self.frame.world_from_camera.transpose();
+        for corner in corners.flat_map(|corner| times.iter().map(move |time| corner + *time * way)) {
+            let at = camera_from_world * (corner - self.eye);
+            if at.z >= 0.0 {
+                any_behind = true;
+                continue;
+            }
+            any_before = true;
+            let inverse_depth = (-at.z).recip();
+            let blur = self.lens_radius * (inverse_depth - self.inverse_focal_distance).abs();
+            let middle = self.film_centre + at.truncate() * inverse_depth * self.pixels;
+            let reach = blur * self.pixels.abs() + self.margin;
+            (area.from, area.to) = (area.from.min(middle - reach), area.to.max(middle + reach));
+        }
+        if any_before && any_behind {
+            // It goes through the plane of the lens: there is no telling.
+            return Area { from: DVec2::NEG_INFINITY, to: DVec2::INFINITY };
+        }
+        area
+    }
+
+    /// Whether rays of the area can meet a plane. How fast they near it, and how far off they start, is linear in
+    /// where they leave the film and the lens, so that the corners of both tell.
+    fn sees(&self, plane: &Plane, area: Area) -> bool {
+        let Frame { world_from_camera } = self.frame;
+        let normal = world_from_camera.transpose() * plane.normal.as_dvec3().normalize();
+        let eye = world_from_camera.transpose() * (plane.point - self.eye);
+        let area = [area.from - self.margin, area.to + self.margin];
+        let lens = [-self.lens_radius, self.lens_radius];
+        let of_lens = || lens.into_iter().flat_map(|x| lens.map(|y| DVec2::new(x, y)));
+        let heights = || of_lens().map(|l| normal.dot(eye - l.extend(0.0)));
+        if heights().any(|height| height >= 0.0) && heights().any(|height| height <= 0.0) {
+            return true;
+        }
+        let of_area = || area.into_iter().flat_map(|x| area.map(|y| DVec2::new(x.x, y.y)));
+        of_lens().zip(heights()).any(|(l, height)| {
+            of_area().any(|at| {
+                let slope = (at - self.film_centre) / self.pixels - l * self.inverse_focal_distance;
+                height * normal.dot(slope.extend(-1.0)) >= 0.0
+            })
+        })
+    }
+}
+
+/// Covers where a convex shape with these corners is seen, if its material has a coverage.
+fn cover_shape<T>(
+    coverages: &mut [Option<Coverage>],
+    view: &View,
+    of: &Shaded<T>,
+    corners: impl Iterator<Item = DVec3>,
+) {
+    if let Some(coverage) = &mut coverages[of.material as usize] {
+        coverage.add(view.area(corners, of.velocity));
+    }
+}
+
+/// The corners of the unit cube.
+fn unit_corners() -> impl Iterator<Item = DVec3> {
+    (0..8).map(|corner| DVec3::new(f64::from(corner & 1), f64::from(corner >> 1 & 1), f64::from(corner >> 2)))
+}
+
+/// Which cells of the grid some of many rectangles cover. Kept as differences of a cell to the one before it in
+/// both directions, so that a rectangle takes four additions, however large it is.
+struct Coverage {
+    differences: Vec<i32>,
+    columns: usize,
+    rows: usize,
+    cell: u32,
+}
+
+impl Coverage {
+    fn new([columns, rows]: [u32; 2], cell: u32) -> Self {
+        let [columns, rows] = [columns, rows].map(|count| count as usize);
+        Self { differences: vec![0; (columns + 1) * (rows + 1)], columns, rows, cell }
+    }
+
+    fn add(&mut self, area: Area) {
+        let [from, to] = [area.from, area.to].map(|at| (at / f64::from(self.cell)).floor());
+        // A NaN, of what overflows, becomes the picture's edge.
+        let first = |at: f64, most: usize| at.clamp(0.0, most as f64) as usize;
+        let [left, top] = [first(from.x, self.columns), first(from.y, self.rows)];
+        let [right, bottom] = [first(to.x + 1.0, self.columns), first(to.y + 1.0, self.rows)];
+        if left < right && top < bottom {
+            for (x, y, by) in [(left, top, 1), (right, top, -1), (left, bottom, -1), (right, bottom, 1)] {
+                self.differences[y * (self.columns + 1) + x] += by;
+            }
+        }
+    }
+
+    /// The indices of the cells.
+    fn covered(&self) -> Vec<usize> {
+        let mut above = vec![0; self.columns];
+        let mut cells = Vec::new();
+        for row in 0..self.rows {
+            let mut sum = 0;
+            for (column, above) in above.iter_mut().enumerate() {
+                sum += self.differences[row * (self.columns + 1) + column];
+                *above += sum;
+                if *above > 0 {
+                    cells.push(row * self.columns + column);
+                }
+            }
+        }
+        cells
+    }
+}
