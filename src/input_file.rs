@@ -72,9 +72,10 @@ pub(crate) fn guarded<T>(decode: impl FnOnce() -> T) -> Option<T> {
 
 pub(crate) const PNG: &str = "a PNG picture";
 pub(crate) const EXR: &str = "an OpenEXR picture";
+pub(crate) const WEB_PAGE: &str = "a web page, perhaps what a server sent instead of the file";
 
-/// How files of some kinds begin, and what they are.
-const BEGINNINGS: [(&[u8], &str); 20] = [
+/// How files of some kinds begin, and what they are, in words that follow "it is".
+const BEGINNINGS: [(&[u8], &str); 42] = [
     (b"\x89PNG\r\n\x1a\n", PNG),
     (b"\x76\x2f\x31\x01", EXR),
     (b"\xff\xd8\xff", "a JPEG picture"),
@@ -86,15 +87,37 @@ const BEGINNINGS: [(&[u8], &str); 20] = [
     (b"#?RADIANCE", "a Radiance HDR picture"),
     (b"8BPS", "a Photoshop picture"),
     (b"\0\0\0\x0cJXL ", "a JPEG XL picture"),
-    (b"%PDF", "a PDF document"),
-    (b"PK\x03\x04", "a ZIP archive; unpack it first"),
-    (b"\x1f\x8b", "packed with gzip; unpack it first"),
-    (b"glTF", "a binary glTF model"),
-    (b"version https://git-lfs", "a pointer of Git LFS, not the file itself; fetch that with git lfs pull"),
-    (b"<!DOCTYPE", "a web page, perhaps what a server sent instead of the file"),
-    (b"<!doctype", "a web page, perhaps what a server sent instead of the file"),
-    (b"<html", "a web page, perhaps what a server sent instead of the file"),
     (b"<svg", "an SVG drawing"),
+    (b"%PDF", "a PDF document"),
+    (b"<!DOCTYPE", WEB_PAGE),
+    (b"<!doctype", WEB_PAGE),
+    (b"<html", WEB_PAGE),
+    (b"version https://git-lfs", "a pointer of Git LFS, not the file itself; fetch that with git lfs pull"),
+    (b"PK\x03\x04", "a zip archive; unpack it first"),
+    (b"\x1f\x8b", "packed with gzip; unpack it first"),
+    (b"BZh", "packed with bzip2; unpack it first"),
+    (b"\xfd7zXZ", "packed with xz; unpack it first"),
+    (b"\x28\xb5\x2f\xfd", "packed with zstd; unpack it first"),
+    (b"7z\xbc\xaf\x27\x1c", "a 7z archive; unpack it first"),
+    (b"Rar!", "a RAR archive; unpack it first"),
+    (b"ply\n", "a PLY mesh; convert it to OBJ with a modeller such as Blender"),
+    (b"ply\r", "a PLY mesh; convert it to OBJ with a modeller such as Blender"),
+    (b"solid", "an STL mesh; convert it to OBJ with a modeller such as Blender"),
+    (b"OFF\n", "an OFF mesh; convert it to OBJ with a modeller such as Blender"),
+    (b"OFF\r", "an OFF mesh; convert it to OBJ with a modeller such as Blender"),
+    (b"xof ", "a DirectX mesh; convert it to OBJ with a modeller such as Blender"),
+    (b"glTF", "a binary glTF model; convert it to OBJ with a modeller such as Blender"),
+    (b"Kaydara FBX", "an FBX scene; convert it to OBJ with a modeller such as Blender"),
+    (b"; FBX", "an FBX scene; convert it to OBJ with a modeller such as Blender"),
+    (b"#usda 1", "a USD scene; convert it to OBJ with a modeller such as Blender"),
+    (b"PXR-USDC", "a USD scene; convert it to OBJ with a modeller such as Blender"),
+    (b"#VRML V", "a VRML scene; convert it to OBJ with a modeller such as Blender"),
+    (b"#Inventor V", "an Inventor scene; convert it to OBJ with a modeller such as Blender"),
+    (b"BLENDER", "a Blender scene; open it in Blender and export it as OBJ"),
+    (b"\x7fELF", "a program or a compiler's object file"),
+    (b"\x64\x86", "a compiler's object file"),
+    (b"\x4c\x01", "a compiler's object file"),
+    (b"MZ", "a program"),
 ];
 
 /// What a file is by how it begins, if that can be told.

@@ -61,10 +61,9 @@ impl Mesh {
         let text = input_file::read(path, input_file::MOST_BYTES)?;
         let obj = obj::parse(&text).map_err(|fault| match fault {
             ObjFault::Line(line, message) => Error::Scene { file: file.clone(), line, message },
-            ObjFault::Foreign(Foreign { what, advice }) => Error::Mesh {
-                file: file.clone(),
-                message: format!("this is no OBJ file, it is {what}; {advice}"),
-            },
+            ObjFault::Foreign(Foreign(what)) => {
+                Error::Mesh { file: file.clone(), message: format!("this is no OBJ file, it is {what}") }
+            }
         })?;
         if obj.faces.is_empty() {
             let message = "there are no faces ('f' lines); export the mesh as polygons".into();
@@ -204,8 +203,8 @@ fn colors(path: &Path, file: &str, obj: &Obj, read: &mut Vec<PathBuf>) -> Vec<Op
                 }
                 library.extend(part);
             }
-            Ok(Err(Foreign { what, advice })) => {
-                log::warn!("{file}: its colours in {name} are not read: it is {what}; {advice}");
+            Ok(Err(Foreign(what))) => {
+                log::warn!("{file}: its colours in {name} are not read: it is {what}");
             }
             Err(error) => log::warn!("{file}: its colours are not read: {error}"),
         }

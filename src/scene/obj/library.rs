@@ -78,8 +78,7 @@ pub(in super::super) fn parse_library(bytes: &[u8]) -> Result<Library, Foreign> 
         }
     }
     if library.materials.is_empty() {
-        let advice = "export the mesh with its materials";
-        return Err(Foreign { what: "text without a material (newmtl)", advice });
+        return Err(Foreign("text without a material (newmtl); export the mesh with its materials"));
     }
     Ok(library)
 }

@@ -109,8 +109,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Obj, ObjFault> {
         reader.read(number, &line).map_err(|message| ObjFault::Line(number, message))?;
     }
     if !reader.is_obj {
-        let advice = "export the mesh as OBJ";
-        return Err(ObjFault::Foreign(Foreign { what: "text without a line of OBJ", advice }));
+        return Err(ObjFault::Foreign(Foreign("text without a line of OBJ; export the mesh as OBJ")));
     }
     let Reader { mut obj, largest_position, largest_normal, polygons, .. } = reader;
     for (largest, count, what) in [

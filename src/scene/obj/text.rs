@@ -2,56 +2,20 @@
 //! string of bytes, for nobody knows in which encoding it was written.
 
 use super::super::MAX_LENGTH;
+use crate::input_file;
 use glam::DVec3;
 use memchr::{memchr, memchr2};
 use std::borrow::Cow;
 use std::str::FromStr;
 
-/// A file that is no OBJ or MTL text, in words that follow "it is".
+/// A file that is no OBJ or MTL text: what it is, and what to do, in words that follow "it is".
 #[derive(Debug)]
-pub(in super::super) struct Foreign {
-    pub(in super::super) what: &'static str,
-    pub(in super::super) advice: &'static str,
-}
+pub(in super::super) struct Foreign(pub(in super::super) &'static str);
 
-const EXPORT: &str = "convert it to OBJ with a modeller such as Blender";
-const UNPACK: &str = "unpack it first";
-const DOWNLOAD: &str = "download the file itself again";
-const WRONG: &str = "give the mesh that belongs there";
-
-/// How other files begin. No OBJ or MTL text begins so.
-const FOREIGN: [(&[u8], &str, &str); 31] = [
-    (b"version https://git-lfs", "a pointer of Git LFS to the file", "fetch the file itself: git lfs pull"),
-    (b"<", "a web page or XML", DOWNLOAD),
-    (b"{", "JSON, such as glTF", EXPORT),
-    (b"\x1f\x8b", "packed with gzip", UNPACK),
-    (b"PK\x03\x04", "a zip archive", UNPACK),
-    (b"7z\xbc\xaf\x27\x1c", "a 7z archive", UNPACK),
-    (b"Rar!", "a RAR archive", UNPACK),
-    (b"\xfd7zXZ", "packed with xz", UNPACK),
-    (b"BZh", "packed with bzip2", UNPACK),
-    (b"\x28\xb5\x2f\xfd", "packed with zstd", UNPACK),
-    (b"ply\n", "a PLY mesh", EXPORT),
-    (b"ply\r", "a PLY mesh", EXPORT),
-    (b"solid", "an STL mesh", EXPORT),
-    (b"glTF", "a glTF scene", EXPORT),
-    (b"Kaydara FBX", "an FBX scene", EXPORT),
-    (b"; FBX", "an FBX scene", EXPORT),
-    (b"BLENDER", "a Blender scene", "open it in Blender and export it as OBJ"),
-    (b"OFF\n", "an OFF mesh", EXPORT),
-    (b"OFF\r", "an OFF mesh", EXPORT),
-    (b"#usda 1", "a USD scene", EXPORT),
-    (b"PXR-USDC", "a USD scene", EXPORT),
-    (b"xof ", "a DirectX mesh", EXPORT),
-    (b"#VRML V", "a VRML scene", EXPORT),
-    (b"#Inventor V", "an Inventor scene", EXPORT),
-    (b"%PDF", "a PDF document", WRONG),
-    (b"\x89PNG", "a PNG picture", WRONG),
-    (b"\xff\xd8\xff", "a JPEG picture", WRONG),
-    (b"\x7fELF", "a program or a compiler's object file", WRONG),
-    (b"\x64\x86", "a compiler's object file", WRONG),
-    (b"\x4c\x01", "a compiler's object file", WRONG),
-    (b"MZ", "a program", WRONG),
+/// How texts of other kinds begin, beside those that [`input_file::kind`] knows. No OBJ or MTL text begins so.
+const FOREIGN: [(&[u8], &str); 2] = [
+    (b"<", input_file::WEB_PAGE),
+    (b"{", "JSON, such as glTF; convert it to OBJ with a modeller such as Blender"),
 ];
 
 /// How much of a file is looked at to tell what it is.
@@ -139,18 +103,17 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Cow<'_, [u8]>, Foreign> {
     };
     refuse_foreign(&text)?;
     if memchr(0, &text[..text.len().min(SAMPLE)]).is_some() {
-        return Err(Foreign { what: "a binary file", advice: EXPORT });
+        return Err(Foreign("a binary file; convert it to OBJ with a modeller such as Blender"));
     }
     Ok(text)
 }
 
 fn refuse_foreign(text: &[u8]) -> Result<(), Foreign> {
     let start = text.trim_ascii_start();
-    if start.is_empty() {
-        return Err(Foreign { what: "empty", advice: DOWNLOAD });
-    }
-    if let Some((_, what, advice)) = FOREIGN.iter().find(|(magic, ..)| start.starts_with(magic)) {
-        return Err(Foreign { what, advice });
+    let of_text =
+        || FOREIGN.iter().find(|(beginning, _)| start.starts_with(beginning)).map(|(_, what)| *what);
+    if let Some(what) = input_file::kind(start).or_else(of_text) {
+        return Err(Foreign(what));
     }
     Ok(())
 }
