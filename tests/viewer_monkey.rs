@@ -153,17 +153,24 @@ impl Monkey<'_> {
         let Some([x, y, _, height]) = viewer.controls.borrow().get("Scene").copied() else {
             return false;
         };
-        viewer.xdotool(&format!("mousemove {} {}", x + 20, y + height / 2));
-        self.look();
-        viewer.xdotool("click 1");
-        self.look();
+        if !self.click([x + 20, y + height / 2]) {
+            return false;
+        }
         let Some([x, y, _, height]) = viewer.controls.borrow().get(scene).copied() else {
             return false;
         };
-        viewer.xdotool(&format!("mousemove {} {}", x + height / 2, y + height / 2));
-        self.look();
-        viewer.xdotool("click 1");
-        true
+        self.click([x + height / 2, y + height / 2])
+    }
+
+    /// Clicks, if that is in the window.
+    fn click(&self, place: [i32; 2]) -> bool {
+        let inside = [0, 1].into_iter().all(|axis| (0..i32::from(self.size[axis])).contains(&place[axis]));
+        if inside {
+            self.viewer.point(place);
+            self.viewer.hands("mousedown 1", 1);
+            self.viewer.hands("mouseup 1", 0);
+        }
+        inside
     }
 }
 
@@ -178,10 +185,6 @@ fn two_hundred_actions_leave_nothing_behind() {
     std::fs::write(&plain, render_png(&viewer.folder, &["-n", "4", "-s", "40x30"])).expect("a picture");
     let mut monkey = Monkey { viewer: &viewer, random: Rng::with_seed(SEED), size: SIZE };
     let home = |monkey: &mut Monkey<'_>| {
-        monkey.size = SIZE;
-        viewer.xdotool(&format!("search --class thinlens windowsize {} {}", SIZE[0], SIZE[1]));
-        let shown = format!("of {}x{}", SIZE[0], SIZE[1]);
-        viewer.wait_for("its size", |viewer| viewer.last_shown.borrow().contains(&shown));
         // Whatever was being typed is over.
         viewer.press("Escape");
         viewer.rest();
@@ -192,6 +195,13 @@ fn two_hundred_actions_leave_nothing_behind() {
             |viewer| (*viewer.state.borrow(), *viewer.camera.borrow(), viewer.shown.borrow().1) == start,
             || viewer.drop_file(&plain),
         );
+        // Depths that an overlay has shown stay as long as the size does.
+        for [width, height] in [SIZE.map(|extent| extent - 20), SIZE] {
+            viewer.xdotool(&format!("search --class thinlens windowsize {width} {height}"));
+            let shown = format!("of {width}x{height}");
+            viewer.wait_for("another size", |viewer| viewer.last_shown.borrow().contains(&shown));
+        }
+        monkey.size = SIZE;
         viewer.rest();
         let holds =
             |viewer: &Viewer| viewer.memory.borrow().iter().any(|(name, _)| name.contains("held picture"));

@@ -178,6 +178,10 @@ fn report_input(event: &WindowEvent) -> bool {
             log::trace!("pointer at {} {}", position.x, position.y);
             return false;
         }
+        WindowEvent::CursorLeft { .. } => {
+            log::trace!("pointer left");
+            return false;
+        }
         WindowEvent::MouseWheel { .. } => {
             log::trace!("input Turned");
             return false;

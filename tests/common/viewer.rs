@@ -191,6 +191,9 @@ impl Viewer {
         if let Some(pointer) = line.split("] pointer at ").nth(1) {
             self.pointer.set(Some(numbers(pointer).try_into().expect("two numbers")));
         }
+        if line.ends_with("] pointer left") {
+            self.pointer.set(None);
+        }
         if let Some(input) = line.split("] input ").nth(1) {
             self.inputs.set(self.inputs.get() + 1);
             self.held.set(match input {
@@ -284,12 +287,12 @@ impl Viewer {
 
     /// Moves the pointer to a place in the window, and waits until the viewer has drawn what comes of it.
     pub fn point(&self, place: [i32; 2]) {
-        if self.pointer.get() == Some(place) {
-            return; // It would get no event.
-        }
+        let is_there = self.pointer.get() == Some(place);
         self.xdotool(&format!("mousemove {} {}", place[0], place[1]));
-        self.wait_for("pointer", |viewer| viewer.pointer.get() == Some(place));
-        self.frames(FRAMES);
+        if !is_there {
+            self.wait_for("pointer", |viewer| viewer.pointer.get() == Some(place));
+            self.frames(FRAMES);
+        }
     }
 
     /// Presses or lets go, after which so many buttons and keys are held, and waits until the viewer has drawn
