@@ -53,8 +53,8 @@ fn points(gpu: &Gpu, estimator: &Estimator, places: &[Place]) -> Result<Vec<[f64
     recording.submit()?;
     commands.wait()?;
 
-    let mut constants = [0; 15];
-    constants[14] = aperture_constant(estimator);
+    let mut constants = [0; 16];
+    constants[15] = aperture_constant(estimator);
     let pipeline = ComputePipeline::new(device, gpu.shader("aperture"), &constants)?;
     let input = Arc::new(Buffer::upload(device, "places", places)?);
     let bytes = size_of::<Point>() * places.len();

@@ -72,7 +72,8 @@ impl Diagram {
     /// Of what the device traced, and the camera that it was traced with.
     pub fn new(estimator: &Estimator, picked: &Picked) -> Self {
         let camera = &estimator.camera;
-        let (frame, eye) = (camera.frame(), camera.eye);
+        // The centre of the lens, where the device has it.
+        let (frame, eye) = (camera.frame(), picked.rays[0].origin);
         let turned =
             |vector: DVec3| DVec3::new(vector.dot(frame.u()), vector.dot(frame.v()), -vector.dot(frame.w()));
         let local = |point: DVec3| turned(point - eye);

@@ -235,9 +235,7 @@ impl Renderer {
                 "the scene can take {steps} steps a sample, but software devices stop at {}: {}; use fewer of \
                  these, or a GPU",
                 schedule::MAX_LOOP_STEPS,
-                self.scene
-                    .as_ref()
-                    .map_or(String::new(), |loaded| loaded.buffers.most_steps_in_words(max_bounces))
+                scene.most_steps_in_words(max_bounces)
             ))),
         }
     }
