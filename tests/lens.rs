@@ -63,7 +63,7 @@ fn slanted(size: [u32; 2], vfov_degrees: f64, diameter: f64, focal_distance: f64
 /// The camera frame of [`slanted`], by the book, not by the program: right, up, backwards.
 fn frame() -> (DVec3, [DVec3; 3]) {
     let (eye, look_at, up) =
-        (DVec3::new(3.0, 4.0, 12.0), DVec3::new(-2.0, 1.0, -9.0), DVec3::new(f64::from(0.2_f32), 1.0, 0.0));
+        (DVec3::new(3.0, 4.0, 12.0), DVec3::new(-2.0, 1.0, -9.0), DVec3::new(0.2, 1.0, 0.0));
     let w = (eye - look_at).normalize();
     let u = up.cross(w).normalize();
     (eye, [u, w.cross(u), w])

@@ -23,7 +23,7 @@ pub(super) fn of(scene: &Scene) -> DVec3 {
     });
     let bounds: Vec<[DVec3; 2]> = spheres.chain(boxes).chain(triangles).collect();
     let (middle, size) = if bounds.is_empty() {
-        (scene.camera.eye, f64::from(scene.lens.focal_distance))
+        (scene.camera.eye, scene.camera.eye.distance(scene.camera.look_at))
     } else {
         let coordinate = |axis| median(bounds.iter().map(|[lower, upper]| 0.5 * (lower[axis] + upper[axis])));
         let middle = DVec3::new(coordinate(0), coordinate(1), coordinate(2));
