@@ -31,7 +31,7 @@ use targets::{TARGETS, Target};
 const MOST_MEMORY: usize = 1 << 30;
 /// Inputs of each target that `cargo test` tries.
 const FEW: u64 = 3000;
-/// Inputs that others are made from, at most.
+/// Inputs of each kind that others are made from, at most.
 const MOST_KEPT: usize = 2000;
 const LONG: Duration = Duration::from_secs(1);
 
@@ -60,18 +60,21 @@ struct Options {
     names: Vec<String>,
     inputs: u64,
     seed: u64,
+    /// Whether every new kind of outcome is told: it shows what the inputs reach.
+    tells: bool,
     /// The bytes of one input to try again.
     input: Option<Vec<u8>>,
 }
 
 impl Options {
     fn of(mut words: impl Iterator<Item = String>) -> Self {
-        let mut options = Self { names: Vec::new(), inputs: FEW, seed: 1, input: None };
+        let mut options = Self { names: Vec::new(), inputs: FEW, seed: 1, tells: false, input: None };
         let number = |word: Option<String>| word.and_then(|word| word.parse().ok()).expect("a number");
         while let Some(word) = words.next() {
             match word.as_str() {
                 "--inputs" => options.inputs = number(words.next()),
                 "--seed" => options.seed = number(words.next()),
+                "--tell" => options.tells = true,
                 "--input" => {
                     options.input =
                         Some(std::fs::read(words.next().expect("a file")).expect("a readable file"));
@@ -121,29 +124,42 @@ fn once(target: &Target, input: &[u8]) -> usize {
 fn many(target: &Target, options: &Options, folder: &Folder) -> usize {
     let mut random = Rng::with_seed(options.seed);
     let seeds = (target.seeds)();
-    let mut kept = seeds.clone();
+    // Those that were right, and those that were wrong in a way of their own.
+    let mut kept = [seeds.clone(), Vec::new()];
     let mut shapes = HashSet::new();
     let mut faults: HashSet<String> = HashSet::new();
-    let (mut accepted, mut slowest) = (0_u64, Duration::ZERO);
+    let (mut accepted, mut slowest) = (0, Duration::ZERO);
     println!("{}: {} inputs, by way of {}", target.name, options.inputs, folder.0.path().display());
     let start = Instant::now();
     for number in 0..options.inputs {
         let input = match usize::try_from(number).ok().and_then(|number| seeds.get(number)) {
             Some(seed) => seed.clone(),
             None => {
-                let [one, other] = [(); 2].map(|()| &kept[random.usize(..kept.len())]);
+                let [one, other] = [(); 2].map(|()| {
+                    // What is wrong already is mostly wrong for the same reason again.
+                    let from = usize::from(random.u8(..5) == 0 && !kept[1].is_empty());
+                    &kept[from][random.usize(..kept[from].len())]
+                });
                 (target.mutate)(&mut random, one, other)
             }
         };
         let begin = Instant::now();
         let outcome = attempt(target, &input);
-        let took = begin.elapsed();
+        let mut took = begin.elapsed();
+        // Other programs may have had the processor: what is slow itself is slow again and again.
+        for _ in 0..4 {
+            if took > LONG {
+                let begin = Instant::now();
+                let _ = attempt(target, &input);
+                took = took.min(begin.elapsed());
+            }
+        }
         slowest = slowest.max(took);
         if took > LONG {
             let file = keep(target, &input, &format!("slow-{number}"));
             println!("{}: {took:.1?} for {}", target.name, file.display());
         }
-        let shape = match outcome {
+        let (wrong, shape) = match outcome {
             Err(panic) => {
                 if faults.insert(shape(&panic)) {
                     let file = keep(target, &input, &number.to_string());
@@ -151,17 +167,19 @@ fn many(target: &Target, options: &Options, folder: &Folder) -> usize {
                 }
                 continue;
             }
-            Ok(Ok(kind)) => {
-                accepted += 1;
-                kind
-            }
-            Ok(Err(error)) => shape(&error),
+            Ok(Ok(kind)) => (0, kind),
+            Ok(Err(error)) => (1, shape(&error)),
         };
-        if shapes.insert(shape) {
+        accepted += 1 - wrong;
+        if shapes.insert(shape.clone()) {
+            if options.tells {
+                println!("{}: {shape}", ["right", "wrong"][wrong]);
+            }
+            let kept = &mut kept[wrong];
             if kept.len() < MOST_KEPT {
                 kept.push(input);
             } else {
-                let place = random.usize(seeds.len()..kept.len());
+                let place = random.usize(..MOST_KEPT);
                 kept[place] = input;
             }
         }
@@ -189,21 +207,11 @@ fn keep(target: &Target, input: &[u8], name: &str) -> PathBuf {
     file
 }
 
-/// The words of a message, without its numbers and without what it quotes.
+/// The words of a message, without those that have digits, and without what it quotes.
 fn shape(message: &str) -> String {
-    let mut shape = String::new();
-    let mut quote = None;
-    for letter in message.chars().take(400) {
-        match quote {
-            Some(end) if letter == end => quote = None,
-            Some(_) => continue,
-            None if "'\"`".contains(letter) => quote = Some(letter),
-            None => {}
-        }
-        let letter = if letter.is_ascii_digit() { '#' } else { letter };
-        if !(letter == '#' && shape.ends_with('#')) {
-            shape.push(letter);
-        }
-    }
-    shape.chars().take(160).collect()
+    let parts = message.split(['\'', '"', '`']).step_by(2).collect::<Vec<_>>().join("'");
+    let words = parts.split(|letter: char| !letter.is_alphanumeric());
+    let words =
+        words.map(|word| if word.contains(|letter: char| letter.is_ascii_digit()) { "#" } else { word });
+    words.collect::<Vec<_>>().join(" ").chars().take(160).collect()
 }

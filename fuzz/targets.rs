@@ -80,7 +80,7 @@ pub const TARGETS: [Target; 7] = [
 fn one_of(input: &[u8], many: u64) -> bool {
     let mut hasher = DefaultHasher::new();
     input.hash(&mut hasher);
-    hasher.finish() % many == 0
+    hasher.finish().is_multiple_of(many)
 }
 
 fn write(name: &str, bytes: &[u8]) {
