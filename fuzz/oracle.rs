@@ -1,0 +1,66 @@
+//! What has to hold of everything that is accepted.
+
+use std::path::Path;
+use thinlens::cli::settings_of_arguments;
+use thinlens::gpu_types::SceneData;
+use thinlens::scene::{self, SceneRef};
+use thinlens::settings::Settings;
+
+/// Settings that can be rendered come back from their own arguments.
+pub fn arguments(settings: &Settings) {
+    let arguments = settings.arguments();
+    let again = settings_of_arguments(&arguments)
+        .unwrap_or_else(|error| panic!("arguments that are made are refused: {error} ({arguments:?})"));
+    let again = of_one_loading(again, settings);
+    assert_eq!(again, *settings, "other settings come of their own arguments {arguments:?}");
+}
+
+/// A scene that is saved can be read, and has the same shapes and camera.
+pub fn saved(settings: &Settings) {
+    // What cannot be said in a scene file is refused.
+    let Ok(text) = settings.scene_file(Path::new(".")) else { return };
+    std::fs::write("saved.toml", text).expect("a writable folder");
+    let scene = scene::load("saved.toml").unwrap_or_else(|error| panic!("a saved scene is refused: {error}"));
+    let shapes = |scene: &scene::Scene| {
+        [
+            scene.spheres.len(),
+            scene.boxes.len(),
+            scene.triangles.len(),
+            scene.planes.len(),
+            scene.lights.len(),
+        ]
+    };
+    assert_eq!(shapes(&scene), shapes(&settings.estimator.scene), "a saved scene has other shapes");
+    let again = Settings::of_scene(SceneRef::new(scene));
+    again.check().unwrap_or_else(|error| panic!("a saved scene cannot be rendered: {error}"));
+    let mut again = of_one_loading(again, settings).estimator;
+    let own = &settings.estimator;
+    // A scene file does not say how it is sampled.
+    (again.jitter, again.sampler, again.seed) = (own.jitter, own.sampler, own.seed);
+    again.noise_threshold = own.noise_threshold;
+    assert_eq!(again, *own, "a saved scene has other settings");
+}
+
+/// Scenes and images are equal where they are the same loading: takes over those of the other settings, if an image
+/// has the same light.
+fn of_one_loading(mut settings: Settings, other: &Settings) -> Settings {
+    settings.estimator.scene = other.estimator.scene.clone();
+    if let (Some(image), Some(of_other)) =
+        (&settings.estimator.aperture.image, &other.estimator.aperture.image)
+    {
+        assert_eq!((image.size, &image.cells), (of_other.size, &of_other.cells), "another image is read");
+        settings.estimator.aperture.image = Some(of_other.clone());
+    }
+    settings
+}
+
+/// What a device gets of a scene, in lists and in a tree. Gives how deep the tree is.
+pub fn on_device(settings: &Settings) -> u32 {
+    let (scene, shutter) = (&settings.estimator.scene, settings.estimator.shutter);
+    let data = SceneData::new(scene, shutter);
+    assert!(data.environment.reach.is_finite(), "the scene reaches {}", data.environment.reach);
+    let tree = data.tree.or_else(|| SceneData::with_tree(scene, shutter, true).tree);
+    let bounded = scene.spheres.len() + scene.boxes.len() + scene.triangles.len();
+    assert_eq!(tree.is_some(), bounded > 0, "a tree of {bounded} shapes");
+    tree.map_or(0, |tree| tree.depth)
+}
