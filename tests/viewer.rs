@@ -59,6 +59,20 @@ fn sliders_change_what_is_rendered() {
     viewer.close();
 }
 
+/// Catches events that the driver takes in while it presents, and that nobody looks for: the window seems dead until
+/// the next one comes. Each event here comes right after a frame began, when most of them are met so.
+#[test]
+fn no_event_is_slept_on() {
+    let viewer = Viewer::start_as_user([500, 400], &["-n", "1"]);
+    viewer.wait_until_done();
+    for number in 0..60 {
+        viewer.point([400 + number % 7, 200 + number % 5]);
+        viewer.hands("mousedown 1", 1);
+        viewer.hands("mouseup 1", 0);
+    }
+    viewer.close();
+}
+
 /// Catches a machine without a driver that is told of an extension, for without drivers all that windows need are
 /// missing.
 #[test]

@@ -33,6 +33,12 @@ const RESTING_BUDGET: Duration = Duration::from_millis(30);
 const FRAMES_AFTER_EVENT: u32 = 3;
 /// It takes presses and releases that come at once a frame each: so many are waited for at most.
 const MOST_FRAMES_TO_DRAW: u32 = 30;
+/// A thread of the driver that presents frames reads from the window's connection too, and may take in an event on
+/// the way, which winit then sleeps on until the next one comes (seen with Mesa 25). So while a frame may still be
+/// on its way to the screen, winit looks again this often,
+const LOOK_AGAIN: Duration = Duration::from_millis(20);
+/// and for this long.
+const MAY_BE_PRESENTING: Duration = Duration::from_secs(5);
 
 /// The application as winit drives it.
 pub(super) struct Viewer {
@@ -156,7 +162,11 @@ impl ApplicationHandler for Viewer {
             log::trace!("idle");
         }
         open.idle = !busy;
-        event_loop.set_control_flow(ControlFlow::Wait);
+        event_loop.set_control_flow(if open.last_frame.elapsed() < MAY_BE_PRESENTING {
+            ControlFlow::wait_duration(LOOK_AGAIN)
+        } else {
+            ControlFlow::Wait
+        });
     }
 
     fn exiting(&mut self, _event_loop: &ActiveEventLoop) {
