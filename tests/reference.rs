@@ -213,7 +213,10 @@ fn pictures_have_the_values_of_their_formulas() {
         (&ground.replace("[0, 1, 0]\nnormal", "[0, 3, 0]\nnormal"), down(2.5, 3.5), 0, all(0.0)),
         (ground, down(-0.5, 0.5), 0, all(0.0)),
         (ground, down(-0.5, -3.0), 0, all(0.0)),
-        (ground, down(0.0001, 0.5), 0, all(0.0)),
+        (ground, down(0.0001, 0.5), 0, all(1.0)),
+        // The boundary of two cells belongs to the lower one.
+        (ground, down(0.0, 0.5), 0, all(0.0)),
+        (&ground.replace("[0, 1, 0]\nnormal", "[0, 2, 0]\nnormal"), down(0.5, 0.5), 0, all(1.0)),
         (sky, (DVec3::ZERO, DVec3::X), 0, DVec3::X),
         (sky, (DVec3::ZERO, -DVec3::Y), 0, DVec3::X),
         (sky, (DVec3::ZERO, DVec3::Y), 0, DVec3::Z),

@@ -236,13 +236,10 @@ fn a_warning_says_where_f32_is_too_coarse() {
     ] {
         assert_eq!(near_by(place), None, "{place:?}");
     }
-    assert!(
-        near_by(Place { distance: 1e8, ..HERE })
-            .is_some_and(|warning| warning.contains("the middle of the scene"))
-    );
     // The camera flies off to another country.
     let mut settings = still_life(HERE);
     settings.estimator.camera.eye += dvec3(0.0, 0.0, 3e6);
     settings.estimator.camera.look_at += dvec3(0.0, 0.0, 3e6);
-    assert!(settings.estimator.too_coarse().is_some());
+    let warning = settings.estimator.too_coarse();
+    assert!(warning.is_some_and(|warning| warning.contains("the middle of the scene")));
 }
