@@ -3,37 +3,14 @@
 
 mod common;
 
+use common::Killed;
+use common::viewer::Server;
 use std::ffi::OsString;
 use std::io::{BufRead, BufReader};
 use std::os::unix::net::UnixListener;
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
-
-/// Kills its process with the test.
-struct Killed(Child);
-
-impl Drop for Killed {
-    fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
-}
-
-/// An X server, and its name.
-fn server() -> (Killed, String) {
-    let mut server = Command::new("Xvfb")
-        .args(["-displayfd", "1", "-screen", "0", "640x480x24", "-nolisten", "tcp"])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::null())
-        .spawn()
-        .map(Killed)
-        .expect("Xvfb, which setup.sh installs");
-    let mut number = String::new();
-    let out = server.0.stdout.take().expect("piped");
-    BufReader::new(out).read_line(&mut number).expect("Xvfb says its display");
-    (server, format!(":{}", number.trim()))
-}
+use std::process::{Command, Stdio};
 
 /// The viewer, in this folder, with these variables.
 fn viewer(folder: &Path, variables: &[(&str, OsString)]) -> Command {
@@ -51,7 +28,7 @@ fn viewer(folder: &Path, variables: &[(&str, OsString)]) -> Command {
 /// never answer. A signal ends the viewer too.
 #[test]
 fn x11_is_used_where_no_compositor_answers() {
-    let (_server, display) = server();
+    let server = Server::start();
     let folder = tempfile::tempdir().expect("a temporary folder");
     let folder = folder.path();
     // A socket whose owner is gone, and one whose owner says nothing.
@@ -71,7 +48,7 @@ fn x11_is_used_where_no_compositor_answers() {
         (vec![("WAYLAND_SOCKET", value("none"))], "a socket that is no number"),
         (vec![("WAYLAND_SOCKET", value("99")), ("WAYLAND_DISPLAY", value("dead")), runtime.clone()], "both"),
     ] {
-        let mut command = viewer(folder, &[&variables[..], &[("DISPLAY", value(&display))]].concat());
+        let mut command = viewer(folder, &[&variables[..], &[("DISPLAY", value(&server.display))]].concat());
         let mut viewer =
             Killed(command.stderr(Stdio::piped()).stdout(Stdio::null()).spawn().expect("it starts"));
         let log = BufReader::new(viewer.0.stderr.take().expect("piped"));

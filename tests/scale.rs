@@ -3,8 +3,8 @@
 mod common;
 
 use anyhow::{Result, ensure};
-use bytemuck::{Pod, Zeroable};
-use common::{Gpu, probe, prove, settings_of};
+use common::probe::{RayAnswer, RayQuestion, probe};
+use common::{Gpu, prove, settings_of};
 use glam::{DVec3, dvec3};
 use std::f64::consts::TAU;
 use thinlens::error::Error;
@@ -130,12 +130,13 @@ fn a_mesh_is_closed_from_far_away_too() {
             let middle = dvec3(0.0, 0.5, 0.0);
             let from = (place() + 0.6 * DVec3::Y).normalize();
             let aim = middle + 0.46 * place();
-            questions.push(Question::new(aim + distance * from, -from, distance));
+            let limit = distance as f32;
+            questions.push(RayQuestion { limit, ..RayQuestion::new(aim + distance * from, -from) });
         }
     }
     let check = |gpu: &Gpu| -> Result<String> {
-        let answers: Vec<Answer> =
-            probe::probe(gpu, "intersect", Some(&settings.estimator.scene), &[], &questions);
+        let answers: Vec<RayAnswer> =
+            probe(gpu, "intersect", Some(&settings.estimator.scene), &[], &questions);
         let through =
             questions.iter().zip(&answers).filter(|(question, answer)| answer.distance >= question.limit);
         let through = through.count();
@@ -143,34 +144,6 @@ fn a_mesh_is_closed_from_far_away_too() {
         Ok(format!("{} rays meet the near side", questions.len()))
     };
     prove(check, &["rays_that_start_at_the_eye"]);
-}
-
-/// A ray for `tests/probes/intersect.comp`, and the distance of what it is aimed at.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable)]
-struct Question {
-    origin: [f32; 3],
-    pad0: u32,
-    direction: [f32; 3],
-    limit: f32,
-}
-
-/// What it meets.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable)]
-struct Answer {
-    normal: [f32; 3],
-    distance: f32,
-    material: u32,
-    occluded: u32,
-    pad0: [u32; 2],
-}
-
-impl Question {
-    fn new(origin: DVec3, direction: DVec3, limit: f64) -> Self {
-        let (origin, direction) = (origin.as_vec3().to_array(), direction.as_vec3().to_array());
-        Self { origin, pad0: 0, direction, limit: limit as f32 }
-    }
 }
 
 /// Catches shadows and checkers that are lost far from the origin: in kilometres from a village's corner, and in a

@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::thinlens;
+use common::{Killed, thinlens};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
@@ -12,16 +12,6 @@ use std::time::{Duration, Instant};
 const LONG: [&str; 5] = ["render", "-q", "-n", "16777216", "-o"];
 /// Long enough for a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
-
-/// Kills its process with the test.
-struct Killed(Child);
-
-impl Drop for Killed {
-    fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
-}
 
 fn names(folder: &Path) -> Vec<String> {
     let entries =

@@ -4,58 +4,16 @@ mod common;
 
 use anyhow::{Result, ensure};
 use bytemuck::{Pod, Zeroable};
-use common::probe::probe;
+use common::probe::{FAR, RayAnswer, RayQuestion, probe};
 use common::scenes::{EVERYTHING, ROOM, one_behind_the_other};
 use common::{Gpu, plain_scene_of, prove, scene_of};
 use glam::{DVec3, Vec3};
 use thinlens::gpu_types::SceneData;
 use thinlens::reference::intersect::intersect;
+use thinlens::reference::sampler;
 use thinlens::reference::shading::radiance;
-use thinlens::reference::{Ray, sampler};
 use thinlens::scene::{SceneRef, Shaded, Triangle};
 use thinlens::settings::Sampler;
-
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable)]
-struct Question {
-    origin: [f32; 3],
-    pad0: u32,
-    direction: [f32; 3],
-    limit: f32,
-}
-
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable)]
-struct Answer {
-    normal: [f32; 3],
-    distance: f32,
-    material: u32,
-    occluded: u32,
-    pad0: [u32; 2],
-}
-
-/// Beyond every hit.
-const FAR: f32 = 1e29;
-
-impl Question {
-    fn new(origin: DVec3, direction: DVec3) -> Self {
-        Self {
-            origin: origin.as_vec3().to_array(),
-            pad0: 0,
-            direction: direction.normalize().as_vec3().to_array(),
-            limit: FAR,
-        }
-    }
-
-    /// The ray as the device sees it, rounded.
-    fn ray(&self) -> Ray {
-        Ray {
-            origin: Vec3::from_array(self.origin).as_dvec3(),
-            direction: Vec3::from_array(self.direction).as_dvec3().normalize(),
-            time: 0.0,
-        }
-    }
-}
 
 /// Values in [-1, 1), four for each index.
 fn random(index: u32, stream: u32) -> [f64; 4] {
@@ -72,7 +30,7 @@ fn random_direction(index: u32, stream: u32) -> DVec3 {
 
 /// Rays from all around, and from inside, the cube of half edge `extent` around the origin, half of
 /// them aimed near the middle; and rays along the axes, whose directions have zeros.
-fn rays(extent: f64, count: u32) -> Vec<Question> {
+fn rays(extent: f64, count: u32) -> Vec<RayQuestion> {
     let somewhere = |index, stream| {
         let [x, y, z, _] = random(index, stream);
         extent * DVec3::new(x, y, z)
@@ -82,12 +40,12 @@ fn rays(extent: f64, count: u32) -> Vec<Question> {
             let origin = somewhere(index, 1);
             let direction =
                 if index % 2 == 0 { random_direction(index, 2) } else { 0.4 * somewhere(index, 3) - origin };
-            Question::new(origin, direction)
+            RayQuestion::new(origin, direction)
         })
         .collect();
     for index in 0..count / 8 {
         for axis in DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]) {
-            all.push(Question::new(somewhere(index, 4), axis));
+            all.push(RayQuestion::new(somewhere(index, 4), axis));
         }
     }
     all
@@ -191,7 +149,7 @@ fn rays_meet_what_the_oracles_meet() {
         for (name, scene) in shapes() {
             let mut off = Vec::new();
             for (question, answer) in
-                questions.iter().zip(probe::<_, Answer>(gpu, "intersect", Some(&scene), &[], &questions))
+                questions.iter().zip(probe::<_, RayAnswer>(gpu, "intersect", Some(&scene), &[], &questions))
             {
                 let expected = intersect(&scene, question.ray(), 0.0);
                 let hit = answer.distance < FAR;
@@ -275,10 +233,10 @@ fn only_what_lies_nearer_than_the_limit_occludes() {
             });
             let questions: Vec<_> = hits
                 .flat_map(|(question, distance)| {
-                    [0.99, 1.01, 1e6].map(|share| Question { limit: share * distance, ..question })
+                    [0.99, 1.01, 1e6].map(|share| RayQuestion { limit: share * distance, ..question })
                 })
                 .collect();
-            let answers: Vec<Answer> = probe(gpu, "intersect", Some(&scene), &[], &questions);
+            let answers: Vec<RayAnswer> = probe(gpu, "intersect", Some(&scene), &[], &questions);
             let wrong = (answers.chunks(3))
                 .filter(|of_hit| [0, 1, 2].map(|i| of_hit[i].occluded) != [0, 1, 1])
                 .count();

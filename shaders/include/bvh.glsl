@@ -271,13 +271,13 @@ Hit intersect_tree(Ray ray, vec3 inverse_direction, inout bool given_up) {
     }
     if (in_tree(KIND_TRIANGLE) && shape.kind == KIND_TRIANGLE) {
         Triangle triangle = to_triangle(shape);
-        hit.normal = cross(shape.a, shape.b);
+        hit.normal = cross(triangle.edge1, triangle.edge2);
         hit.curvature = 0.0;
         hit.offset = triangle.offset;
         hit.size = triangle.size;
         if (in_tree(KIND_SMOOTH)) {
             vec2 barycentric;
-            intersect_triangle(ray, to_triangle(shape), barycentric);
+            intersect_triangle(ray, triangle, barycentric);
             hit.shading_normal = interpolated_normal(shape.index, barycentric, hit.normal);
         }
     }

@@ -26,10 +26,6 @@ struct Hit {
     vec3 way; // how far the shape has come by now
 };
 
-Hit no_hit() {
-    return Hit(MISS, 0u, vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0), vec3(0.0));
-}
-
 // The quadratic with the discriminant taken from the closest approach, which keeps its digits for
 // small and far spheres: E. Haines et al., Ray Tracing Gems, chapter 7.
 float intersect_sphere(Ray ray, Sphere sphere) {
@@ -140,7 +136,7 @@ float way_to_shapes(Ray ray) {
 
 // The nearest hit, or one with distance MISS. given_up: the search for it took too long.
 Hit intersect_scene(Ray from, inout bool given_up) {
-    Hit hit = no_hit();
+    Hit hit = Hit(MISS, 0u, vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0), vec3(0.0));
     vec3 inverse_direction = safe_inverse(from.direction);
     float start = way_to_shapes(from);
     Ray ray = Ray(from.origin + start * from.direction, from.direction);

@@ -1,5 +1,5 @@
-// The scene as the shaders see it: its coordinates are seen from the middle of it. Shapes are numbered spheres first, then boxes, triangles,
-// planes; material_of_shape is indexed by that number.
+// The scene as the shaders see it, in coordinates whose origin is near its middle. Shapes are numbered spheres
+// first, then boxes, triangles, planes; material_of_shape is indexed by that number.
 
 #ifndef SCENE_GLSL
 #define SCENE_GLSL

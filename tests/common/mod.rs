@@ -7,7 +7,7 @@ pub mod statistics;
 pub mod viewer;
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Child, Command, Output};
 use std::sync::Arc;
 use thinlens::error::Error;
 use thinlens::passes::Shaders;
@@ -199,6 +199,16 @@ pub fn film(gpu: &Gpu, settings: &Settings) -> Vec<[f32; 4]> {
 /// The bits of a film: equal films may differ in -0 and 0, equal bits do not.
 pub fn bits(film: &[[f32; 4]]) -> Vec<[u32; 4]> {
     film.iter().map(|texel| texel.map(f32::to_bits)).collect()
+}
+
+/// Kills its process with the test.
+pub struct Killed(pub Child);
+
+impl Drop for Killed {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
 }
 
 /// The program, with what it prints.

@@ -2,9 +2,11 @@
 
 use super::{Gpu, pixels};
 use bytemuck::{Pod, Zeroable};
+use glam::{DVec3, Vec3};
 use std::sync::Arc;
 use thinlens::gpu_types::{SceneData, sampler_constant};
 use thinlens::passes::{BlueNoiseTile, SceneBuffers};
+use thinlens::reference::Ray;
 use thinlens::scene::SceneRef;
 use thinlens::settings::Sampler;
 use thinlens::vulkan::{Binding, BindingSet, Buffer, Commands, ComputePipeline, Residence};
@@ -132,4 +134,49 @@ pub fn disk(gpu: &Gpu, squares: &[[f64; 2]]) -> Vec<[f64; 2]> {
         .map(|square| Values { lens: square.map(|value| value as f32), ..Zeroable::zeroed() })
         .collect();
     warp(gpu, &values).iter().map(|warped| warped.disk.map(f64::from)).collect()
+}
+
+/// A ray for `tests/probes/intersect.comp`, and how far off it is asked whether anything is met.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct RayQuestion {
+    pub origin: [f32; 3],
+    pub pad0: u32,
+    pub direction: [f32; 3],
+    pub limit: f32,
+}
+
+/// What it meets.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct RayAnswer {
+    pub normal: [f32; 3],
+    pub distance: f32,
+    pub material: u32,
+    pub occluded: u32,
+    pub pad0: [u32; 2],
+}
+
+/// Beyond every hit.
+pub const FAR: f32 = 1e29;
+
+impl RayQuestion {
+    /// Without a limit.
+    pub fn new(origin: DVec3, direction: DVec3) -> Self {
+        Self {
+            origin: origin.as_vec3().to_array(),
+            pad0: 0,
+            direction: direction.normalize().as_vec3().to_array(),
+            limit: FAR,
+        }
+    }
+
+    /// The ray as the device sees it, rounded.
+    pub fn ray(&self) -> Ray {
+        Ray {
+            origin: Vec3::from_array(self.origin).as_dvec3(),
+            direction: Vec3::from_array(self.direction).as_dvec3().normalize(),
+            time: 0.0,
+        }
+    }
 }

@@ -4,12 +4,12 @@
 //! has seen, which frames it began, and what is set and shown: a test waits until an event was seen and drawn before it
 //! looks or goes on.
 
-use super::{CACHE, decode_png, render_png};
+use super::{CACHE, Killed, decode_png, render_png};
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
@@ -30,16 +30,6 @@ const PICTURE_LEFT: usize = 340;
 const FRAMES: usize = 3;
 /// Long enough for a busy machine; what is waited for comes in well under a second elsewhere.
 const PATIENCE: Duration = Duration::from_secs(60);
-
-/// Kills its process with the test.
-struct Killed(Child);
-
-impl Drop for Killed {
-    fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
-}
 
 /// A display that nobody sees.
 pub struct Server {
