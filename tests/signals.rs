@@ -10,6 +10,8 @@ use std::time::{Duration, Instant};
 
 /// More samples than anybody waits for.
 const LONG: [&str; 5] = ["render", "-q", "-n", "16777216", "-o"];
+/// What makes `env` start a program that these signals end.
+const DEFAULT_SIGNALS: &str = "--default-signal=INT,TERM,HUP,QUIT";
 /// Long enough for a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
@@ -17,6 +19,21 @@ fn names(folder: &Path) -> Vec<String> {
     let entries =
         std::fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").file_name());
     entries.map(|name| name.to_string_lossy().into_owned()).collect()
+}
+
+/// The program under test, which a signal ends whatever the signals do that this test was started with: a job in the
+/// background may ignore some, and what it starts would too.
+fn mortal(folder: &Path) -> Command {
+    let plain = thinlens(folder);
+    let mut command = Command::new("env");
+    command.arg(DEFAULT_SIGNALS).arg(plain.get_program()).current_dir(folder);
+    for (name, value) in plain.get_envs() {
+        match value {
+            Some(value) => command.env(name, value),
+            None => command.env_remove(name),
+        };
+    }
+    command
 }
 
 /// Waits until something is so.
@@ -53,7 +70,7 @@ fn a_signal_leaves_nothing_behind() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let folder = folder.path();
         std::fs::write(folder.join("long.png"), "older").expect("a file");
-        let mut command = thinlens(folder);
+        let mut command = mortal(folder);
         command.args(LONG).args(["long.png", "--stats", "long.json"]);
         let child = Killed(command.spawn().expect("it starts"));
         until("both parts", || parts(folder) == 2);
@@ -73,7 +90,7 @@ fn sheets_and_figures_leave_nothing_behind() {
     ] {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let folder = folder.path();
-        let mut command = thinlens(folder);
+        let mut command = mortal(folder);
         command.args(arguments).stdout(Stdio::null()).stderr(Stdio::null());
         let child = Killed(command.spawn().expect("it starts"));
         until("a part", || parts(folder) == 1);
@@ -107,7 +124,7 @@ fn the_terminal_is_left_as_it_was() {
     let folder = folder.path();
     // A terminal for the program, whose output goes to a file.
     let program = format!(
-        "stty cols 100; exec {} render -n 16777216 -o long.png",
+        "stty cols 100; exec env {DEFAULT_SIGNALS} {} render -n 16777216 -o long.png",
         thinlens::settings::quoted(env!("CARGO_BIN_EXE_thinlens").as_ref())
     );
     let mut command = Command::new("script");
