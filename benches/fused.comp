@@ -4,14 +4,17 @@
 
 // Trace and accumulate in one kernel, for two_pass.rs to compare with. Not part of the program.
 
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "interface.glsl"
+
+layout(local_size_x = GROUP_SIZE, local_size_y = GROUP_SIZE) in;
 
 #include "trace_batch.glsl"
 
-layout(set = 0, binding = 0, rgba32f) uniform image2D film_image;
+layout(set = 0, binding = BINDING_FILM_IMAGE, rgba32f) uniform image2D film_image;
 
 void main() {
     keep_scene();
+    keep_aperture();
     TracePush push = push_constants;
     uvec2 pixel;
     if (find_pixel(push.lattice, pixel)) {

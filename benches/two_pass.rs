@@ -6,7 +6,8 @@
 
 use std::sync::Arc;
 use thinlens::error::Result;
-use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush, estimator_constants};
+use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush, lens_constants};
+use thinlens::interface::binding;
 use thinlens::passes::{Accumulate, Adaptive, BlueNoiseTile, Opening, SceneBuffers, Trace};
 use thinlens::renderer::schedule::Pass;
 use thinlens::scene::{self, SceneRef};
@@ -19,9 +20,6 @@ use thinlens::vulkan::{
 const SIZE: [u32; 2] = [640, 480];
 const SAMPLES: u32 = 16;
 const ROUNDS: usize = 21;
-
-const FUSED: Shader =
-    Shader { name: "fused", spirv: include_bytes!(concat!(env!("OUT_DIR"), "/fused.comp.spv")) };
 
 /// The device's time for what `record` records, in seconds.
 fn time(commands: &mut Commands, timer: &Timer, record: impl FnOnce(&mut Recording<'_>)) -> Result<f64> {
@@ -43,7 +41,7 @@ fn measure(device: &Arc<Device>, name: &str) -> Result<()> {
     let mut settings = Settings::of_scene(SceneRef::new(scene::load(name)?));
     settings.estimator.size = SIZE;
     let estimator = &settings.estimator;
-    let constants = estimator_constants(estimator);
+    let constants = lens_constants(estimator);
     let batch = Arc::new(Image::rgba32f(device, "batch", SIZE)?);
     let film = Arc::new(Image::rgba32f(device, "film", SIZE)?);
     let counters =
@@ -51,17 +49,23 @@ fn measure(device: &Arc<Device>, name: &str) -> Result<()> {
     let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene, estimator.shutter))?;
     let tile = BlueNoiseTile::new(device)?;
     let (trace, accumulate) = (
-        Trace::new(device, Trace::SHADER, constants, 0, &scene, &tile)?,
-        Accumulate::new(device, Accumulate::SHADER, constants, &tile)?,
+        Trace::new(device, Trace::SHADER, &constants, &scene, &tile)?,
+        Accumulate::new(device, Accumulate::SHADER, &constants, &tile)?,
     );
     let opening = Opening::new(device, &[])?;
     let adaptive = Adaptive::new(device, None)?;
     let traced = trace.bind(&scene, &opening, &batch, &counters, &adaptive, 0)?;
     let accumulated = accumulate.bind(&batch, &film, &adaptive, 0)?;
-    let fused = ComputePipeline::new(device, FUSED, &scene.constants(constants))?;
-    let front = [Binding::Image(Arc::clone(&film)), Binding::Buffer(Arc::clone(&counters))];
-    let mut bindings = scene.bindings(&front);
-    bindings.extend([adaptive.bind_list(13, 0), tile.binding()]);
+    let spirv = thinlens_test_shaders::spirv("fused", "").expect("a shader that there is");
+    let fused = Shader { name: "fused", spirv };
+    let fused = ComputePipeline::new(device, fused, &[scene.constants(), &constants].concat())?;
+    let mut bindings = scene.bindings();
+    bindings.extend([
+        (binding::FILM_IMAGE, Binding::Image(Arc::clone(&film))),
+        (binding::COUNTERS, Binding::Buffer(Arc::clone(&counters))),
+        adaptive.bind_active(0),
+        tile.binding(),
+    ]);
     bindings.extend(opening.bindings());
     let fused_bindings = BindingSet::new(&fused, &bindings)?;
 

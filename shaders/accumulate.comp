@@ -5,15 +5,17 @@
 // whose samples can land in it; it computes their offsets again from the sampler. No two
 // invocations write one texel, and the order is fixed, so the result is the same every time.
 
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "interface.glsl"
+
+layout(local_size_x = GROUP_SIZE, local_size_y = GROUP_SIZE) in;
 
 #include "adaptive.glsl"
 #include "sampling.glsl"
 
-layout(set = 0, binding = 0, rgba32f) readonly uniform image2D batch_image;
-layout(set = 0, binding = 1, rgba32f) uniform image2D film_image;
-layout(set = 0, binding = 14, r32f) readonly uniform image2D batch_moments;
-layout(set = 0, binding = 15, r32f) uniform image2D film_moments;
+layout(set = 0, binding = BINDING_TRACED_IMAGE, rgba32f) readonly uniform image2D traced_image;
+layout(set = 0, binding = BINDING_FILM_IMAGE, rgba32f) uniform image2D film_image;
+layout(set = 0, binding = BINDING_TRACED_MOMENTS, r32f) readonly uniform image2D traced_moments;
+layout(set = 0, binding = BINDING_FILM_MOMENTS, r32f) uniform image2D film_moments;
 
 layout(push_constant, std430) uniform AccumulatePush {
     Lattice lattice; // the pixels to merge
@@ -28,9 +30,9 @@ float moment = 0.0;
 
 // Merges what was traced for the start pixel.
 void gather(ivec2 start) {
-    vec4 batch = imageLoad(batch_image, start);
-    if (IS_ADAPTIVE == 1u) {
-        moment = merge_moments(film, moment, batch, imageLoad(batch_moments, start).r);
+    vec4 batch = imageLoad(traced_image, start);
+    if (HAS_MOMENTS == 1u) {
+        moment = merge_moments(film, moment, batch, imageLoad(traced_moments, start).r);
     }
     film = merge(film, batch);
 }
@@ -42,7 +44,7 @@ void main() {
     }
     if (push.first_sample > 0u) {
         film = imageLoad(film_image, ivec2(pixel));
-        if (IS_ADAPTIVE == 1u) {
+        if (HAS_MOMENTS == 1u) {
             moment = imageLoad(film_moments, ivec2(pixel)).r;
         }
     }
@@ -64,7 +66,7 @@ void main() {
         }
     }
     imageStore(film_image, ivec2(pixel), film);
-    if (IS_ADAPTIVE == 1u) {
+    if (HAS_MOMENTS == 1u) {
         imageStore(film_moments, ivec2(pixel), vec4(moment));
     }
 }

@@ -5,12 +5,14 @@
 // For overlays: how deep each pixel's middle sees through the centre of the lens, along the optical axis, in
 // the middle of the exposure.
 
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "interface.glsl"
+
+layout(local_size_x = GROUP_SIZE, local_size_y = GROUP_SIZE) in;
 
 #include "intersect.glsl"
 #include "film.glsl"
 
-layout(set = 0, binding = 0, r32f) writeonly uniform image2D depth_image;
+layout(set = 0, binding = BINDING_DEPTH_IMAGE, r32f) writeonly uniform image2D depth_image;
 
 layout(push_constant, std430) uniform GeometryPush {
     Camera camera;

@@ -28,7 +28,7 @@ layout(push_constant, std430) uniform PickPush {
     uint seed;
 } push;
 
-layout(set = 0, binding = 0, std430) writeonly buffer PickedRays { PickedRay picked[]; };
+layout(set = 0, binding = BINDING_PICKED_RAYS, std430) writeonly buffer PickedRays { PickedRay picked[]; };
 
 // The point of the lens, of radius one, of a ray through its centre or of a fan from rim to rim.
 vec2 opening_point(uint ray) {

@@ -6,24 +6,26 @@
 // bound here is the tracing image, and only the texels of a lattice in it are of this picture: each
 // stands for the cell of pixels around it, and an invocation resolves a cell.
 
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "interface.glsl"
+
+layout(local_size_x = GROUP_SIZE, local_size_y = GROUP_SIZE) in;
 
 #include "adaptive.glsl"
 #include "color.glsl"
 #include "overlay.glsl"
 
-layout(set = 0, binding = 0, rgba32f) readonly uniform image2D film_image;
-layout(set = 0, binding = 1, rgba8) writeonly uniform image2D picture_image;
+layout(set = 0, binding = BINDING_FILM_IMAGE, rgba32f) readonly uniform image2D film_image;
+layout(set = 0, binding = BINDING_PICTURE_IMAGE, rgba8) writeonly uniform image2D picture_image;
 
 // Of the overlays: depth along the axis, and second moments of luminance where the film has some.
-layout(set = 0, binding = 2, r32f) readonly uniform image2D depth_image;
-layout(set = 0, binding = 15, r32f) readonly uniform image2D film_moments;
+layout(set = 0, binding = BINDING_DEPTH_IMAGE, r32f) readonly uniform image2D depth_image;
+layout(set = 0, binding = BINDING_FILM_MOMENTS, r32f) readonly uniform image2D film_moments;
 
 // 0: every texel is known to have a sample. Mesa's software device runs through what is not taken of a
 // branch as well, so the search is compiled in only where it may be needed.
-layout(constant_id = 2) const uint HAS_HOLES = 1u;
+layout(constant_id = ID_HAS_HOLES) const uint HAS_HOLES = 1u;
 // Likewise.
-layout(constant_id = 3) const uint HAS_OVERLAY = 0u;
+layout(constant_id = ID_HAS_OVERLAY) const uint HAS_OVERLAY = 0u;
 
 layout(push_constant, std430) uniform ResolvePush {
     uvec2 extent;
@@ -37,7 +39,7 @@ const int SEARCH_RADIUS = 4;
 
 // The texel of the lattice that stands for a cell.
 ivec2 site_of(ivec2 cell) {
-    int site_in_cell = push.preview_stride == 4u ? 2 : 0;
+    int site_in_cell = push.preview_stride == PREVIEW_STRIDE ? int(PREVIEW_SITE) : 0;
     return cell * int(push.preview_stride) + site_in_cell;
 }
 
@@ -82,7 +84,7 @@ void main() {
     vec3 shown = push.exposure * film.rgb;
     if (HAS_OVERLAY == 1u) {
         ivec2 site = min(site_of(ivec2(cell)), ivec2(push.extent) - 1);
-        float error = IS_ADAPTIVE == 1u ? relative_error(film, imageLoad(film_moments, site).r) : 0.0;
+        float error = HAS_MOMENTS == 1u ? relative_error(film, imageLoad(film_moments, site).r) : 0.0;
         shown = overlay_color(push.overlay, shown, film.w, error, imageLoad(depth_image, site).r);
     }
     vec4 color = vec4(srgb_encode(shown), 1.0);

@@ -6,18 +6,20 @@
 // fall on one side, and when little can be lost of what none of them has met. A pixel that has stopped never
 // starts again.
 
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "interface.glsl"
+
+layout(local_size_x = GROUP_SIZE, local_size_y = GROUP_SIZE) in;
 
 #include "adaptive.glsl"
 
-layout(set = 0, binding = 0, rgba32f) writeonly uniform image2D batch_image;
-layout(set = 0, binding = 1, rgba32f) readonly uniform image2D film_image;
-layout(set = 0, binding = 15, r32f) readonly uniform image2D film_moments;
+layout(set = 0, binding = BINDING_TRACED_IMAGE, rgba32f) writeonly uniform image2D traced_image;
+layout(set = 0, binding = BINDING_FILM_IMAGE, rgba32f) readonly uniform image2D film_image;
+layout(set = 0, binding = BINDING_FILM_MOMENTS, r32f) readonly uniform image2D film_moments;
 
-layout(set = 0, binding = 14, std430) buffer KeptPixels { uint kept_pixels[]; }; // as the active ones
+layout(set = 0, binding = BINDING_KEPT_PIXELS, std430) buffer KeptPixels { uint kept_pixels[]; }; // as the active ones
 
 // The most luminance of what rays can meet, for each cell of a grid over the picture.
-layout(set = 0, binding = 2, std430) readonly buffer BrightestBuffer { float brightest[]; };
+layout(set = 0, binding = BINDING_BRIGHTEST, std430) readonly buffer BrightestBuffer { float brightest[]; };
 
 layout(push_constant, std430) uniform SelectPush {
     Lattice lattice;
@@ -56,7 +58,7 @@ void main() {
     bool kept = is_active && has_noise_around(ivec2(pixel));
     if (is_active && !kept) {
         // No neighbour may gather from it what it traced last.
-        imageStore(batch_image, ivec2(pixel), vec4(0.0));
+        imageStore(traced_image, ivec2(pixel), vec4(0.0));
     }
     uint place = kept ? atomicAdd(kept_in_group, 1u) : 0u;
     barrier();

@@ -5,12 +5,14 @@
 // Pass 1: traces a batch of samples for each pixel of the lattice and writes one texel: their mean
 // and their number. In an adaptive picture, their second moment too.
 
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "interface.glsl"
+
+layout(local_size_x = GROUP_SIZE, local_size_y = GROUP_SIZE) in;
 
 #include "trace_batch.glsl"
 
-layout(set = 0, binding = 0, rgba32f) writeonly uniform image2D batch_image;
-layout(set = 0, binding = 14, r32f) writeonly uniform image2D batch_moments;
+layout(set = 0, binding = BINDING_TRACED_IMAGE, rgba32f) writeonly uniform image2D traced_image;
+layout(set = 0, binding = BINDING_TRACED_MOMENTS, r32f) writeonly uniform image2D traced_moments;
 
 void main() {
     keep_scene();
@@ -19,9 +21,9 @@ void main() {
     uvec2 pixel;
     if (find_pixel(push.lattice, pixel)) {
         float moment;
-        imageStore(batch_image, ivec2(pixel), trace_batch(push, pixel, moment));
-        if (IS_ADAPTIVE == 1u) {
-            imageStore(batch_moments, ivec2(pixel), vec4(moment));
+        imageStore(traced_image, ivec2(pixel), trace_batch(push, pixel, moment));
+        if (HAS_MOMENTS == 1u) {
+            imageStore(traced_moments, ivec2(pixel), vec4(moment));
         }
     }
 }

@@ -10,8 +10,9 @@
 //! - [`settings`] has two halves. A change of the [`settings::Estimator`] starts the film anew, a
 //!   change of the [`scene::View`] does not.
 //! - [`scene`] holds plain values and reads them from TOML and OBJ.
-//! - [`gpu_types`] holds the byte-for-byte twins of the shaders' structs.
-//! - [`passes`] are the three compute passes, each with the shader of its name in `shaders/`.
+//! - [`interface`] has the numbers that both sides share, and [`gpu_types`] the byte-for-byte twins of the
+//!   shaders' structs.
+//! - [`passes`] are the compute passes, each with the shader of its name in `shaders/`.
 //! - [`renderer`] owns film and passes and decides what is traced next.
 //! - [`output`] writes files, [`app`] is the window, [`cli`] the command line.
 //! - [`bench`] measures what it costs to render, and what comes of it.
@@ -31,6 +32,7 @@ pub mod cli;
 pub mod error;
 pub mod gpu_types;
 mod input_file;
+pub mod interface;
 pub mod interrupt;
 pub mod output;
 pub mod passes;

@@ -8,7 +8,7 @@ use common::scenes::BURNING;
 use common::{Gpu, bits, film, probe, prove, render, scene_of, settings_of, small};
 use glam::DVec3;
 use std::sync::Arc;
-use thinlens::gpu_types::{Camera, Counters, SceneData, TracePush, estimator_constants};
+use thinlens::gpu_types::{Camera, Counters, SceneData, TracePush, lens_constants};
 use thinlens::passes::{Adaptive, BlueNoiseTile, Opening, SceneBuffers, Trace};
 use thinlens::reference::{self, sampler};
 use thinlens::renderer::schedule::Pass;
@@ -37,7 +37,7 @@ fn record(gpu: &Gpu, settings: &Settings) -> Result<Vec<Vec<[f32; 4]>>> {
     let device = gpu.device();
     let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene, estimator.shutter))?;
     let tile = BlueNoiseTile::new(device)?;
-    let trace = Trace::new(device, gpu.shader("trace"), estimator_constants(estimator), 0, &scene, &tile)?;
+    let trace = Trace::new(device, gpu.shader("trace"), &lens_constants(estimator), &scene, &tile)?;
     let counters = Buffer::new(device, "counters", size_of::<Counters>() as u64, Residence::Device)?;
     let batch = Arc::new(Image::rgba32f(device, "batch", estimator.size)?);
     let read = Buffer::new(device, "samples", batch.byte_len(), Residence::Host)?;

@@ -9,7 +9,8 @@ use common::{Gpu, probe, prove, render, run, settings_of};
 use std::f64::consts::PI;
 use std::path::Path;
 use std::sync::Arc;
-use thinlens::gpu_types::{ApertureBuffer, aperture_constant, aperture_sums};
+use thinlens::gpu_types::{ApertureBuffer, aperture_sums, lens_constants};
+use thinlens::interface::binding;
 use thinlens::passes::{BlueNoiseTile, Opening};
 use thinlens::reference::{aperture, sampler};
 use thinlens::scene::{Aperture, ApertureImage};
@@ -53,13 +54,14 @@ fn points(gpu: &Gpu, estimator: &Estimator, places: &[Place]) -> Result<Vec<[f64
     recording.submit()?;
     commands.wait()?;
 
-    let mut constants = [0; 16];
-    constants[15] = aperture_constant(estimator);
-    let pipeline = ComputePipeline::new(device, gpu.shader("aperture"), &constants)?;
+    let pipeline = ComputePipeline::new(device, gpu.shader("aperture"), &lens_constants(estimator))?;
     let input = Arc::new(Buffer::upload(device, "places", places)?);
     let bytes = size_of::<Point>() * places.len();
     let output = Arc::new(Buffer::new(device, "points", bytes as u64, Residence::Host)?);
-    let mut bindings = vec![(0, Binding::Buffer(input)), (1, Binding::Buffer(Arc::clone(&output)))];
+    let mut bindings = vec![
+        (binding::PROBE_INPUTS, Binding::Buffer(input)),
+        (binding::PROBE_OUTPUTS, Binding::Buffer(Arc::clone(&output))),
+    ];
     bindings.extend(opening.bindings());
     bindings.push(BlueNoiseTile::new(device)?.binding());
     let bindings = BindingSet::new(&pipeline, &bindings)?;

@@ -11,6 +11,7 @@ use common::{Gpu, decode_png, pixels, probe, prove};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use thinlens::gpu_types::{OverlayScale, ResolvePush};
+use thinlens::interface::binding;
 use thinlens::output::write_png;
 use thinlens::passes::{Adaptive, Resolve};
 use thinlens::pending_file::PendingFile;
@@ -51,7 +52,10 @@ fn resolve(gpu: &Gpu, case: &Case) -> Result<Vec<u8>> {
 
     let texels = Arc::new(Buffer::upload(device, "texels", &case.film)?);
     let fill = ComputePipeline::new(device, gpu.shader("fill"), &[])?;
-    let filled = [(0, Binding::Buffer(texels)), (1, Binding::Image(Arc::clone(&film)))];
+    let filled = [
+        (binding::PROBE_INPUTS, Binding::Buffer(texels)),
+        (binding::FILM_IMAGE, Binding::Image(Arc::clone(&film))),
+    ];
     probe::run(gpu, &fill, &BindingSet::new(&fill, &filled)?, &[], case.extent);
 
     let resolve = Resolve::new(device, gpu.shader("resolve"))?;

@@ -4,14 +4,14 @@
 use std::path::Path;
 
 /// A module and what it may use of the crate, besides `error`.
-const ARROWS: [(&str, &[&str]); 16] = [
+const ARROWS: [(&str, &[&str]); 17] = [
     ("cli", &["settings", "scene"]),
-    ("app", &["renderer", "output", "settings", "scene", "vulkan", "pending_file"]),
+    ("app", &["renderer", "output", "settings", "scene", "vulkan", "interface", "pending_file"]),
     ("bench", &["renderer", "output", "settings", "vulkan", "pending_file"]),
     ("output", &["renderer", "settings", "scene", "vulkan", "pending_file", "input_file", "interrupt"]),
-    ("renderer", &["passes", "gpu_types", "settings", "scene", "vulkan"]),
-    ("passes", &["vulkan", "gpu_types"]),
-    ("gpu_types", &["scene", "settings"]),
+    ("renderer", &["passes", "gpu_types", "interface", "settings", "scene", "vulkan"]),
+    ("passes", &["vulkan", "gpu_types", "interface"]),
+    ("gpu_types", &["scene", "settings", "interface"]),
     ("verify", &["renderer", "reference", "settings", "vulkan"]),
     ("reference", &["scene", "settings"]),
     ("settings", &["scene"]),
@@ -20,6 +20,7 @@ const ARROWS: [(&str, &[&str]); 16] = [
     ("pending_file", &["interrupt"]),
     ("input_file", &[]),
     ("interrupt", &[]),
+    ("interface", &[]),
     ("error", &[]),
 ];
 

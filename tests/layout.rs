@@ -2,8 +2,12 @@
 
 use std::mem::offset_of;
 use thinlens::gpu_types::*;
+use thinlens::interface::binding;
 use thinlens::passes::{Accumulate, Geometry, Pick, Resolve, Select, Trace};
-use thinlens::vulkan::StructLayout;
+use thinlens::vulkan::{Shader, StructLayout};
+
+const SHADERS: [Shader; 6] =
+    [Trace::SHADER, Accumulate::SHADER, Select::SHADER, Resolve::SHADER, Pick::SHADER, Geometry::SHADER];
 
 /// A twin: name, fields with offsets, and size.
 macro_rules! twin {
@@ -99,9 +103,7 @@ fn fault(layout: &StructLayout, (name, fields, size): &Twin) -> Option<String> {
 fn every_struct_of_the_shaders_has_its_twin() {
     let twins = twins();
     let mut seen = Vec::new();
-    for shader in
-        [Trace::SHADER, Accumulate::SHADER, Select::SHADER, Resolve::SHADER, Pick::SHADER, Geometry::SHADER]
-    {
+    for shader in SHADERS {
         for layout in shader.interface().structs {
             // The block around a runtime array has the array for its one member.
             let block = layout.members.len() == 1 && layout.members[0].1 == 0;
@@ -127,6 +129,35 @@ fn every_struct_of_the_shaders_has_its_twin() {
     for (name, ..) in &twins {
         assert!(seen.iter().any(|seen| seen == name), "no shader has {name}");
     }
+}
+
+/// The binding of a name as GLSL writes it: of an image or texel buffer, or of a buffer's block.
+fn binding_of(name: &str) -> Option<u32> {
+    let mut upper = String::new();
+    for letter in name.trim_end_matches("Buffer").chars() {
+        if letter.is_uppercase() && !upper.is_empty() {
+            upper.push('_');
+        }
+        upper.push(letter.to_ascii_uppercase());
+    }
+    let place = binding::NAMES.iter().position(|name| *name == upper)?;
+    u32::try_from(place).ok()
+}
+
+/// Catches a resource that a shader declares at another one's binding: the numbers are right on both sides then,
+/// but not the names.
+#[test]
+fn a_binding_is_the_same_resource_in_every_shader() {
+    for shader in SHADERS {
+        let interface = shader.interface();
+        for (number, name) in &interface.names {
+            assert_eq!(binding_of(name), Some(*number), "{}: {name}", shader.name);
+        }
+        assert_eq!(interface.names.len(), interface.resources.len(), "{}", shader.name);
+    }
+    assert_eq!(binding_of("KeptPixels"), Some(binding::KEPT_PIXELS));
+    assert_eq!(binding_of("film_image"), Some(binding::FILM_IMAGE));
+    assert_eq!(binding_of("Nothing"), None);
 }
 
 /// The check above must see a moved field and a wrong size.

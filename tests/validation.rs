@@ -4,7 +4,7 @@ mod common;
 
 use common::{Gpu, run, small};
 use std::sync::Arc;
-use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush, estimator_constants};
+use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush, lens_constants};
 use thinlens::passes::{Accumulate, Adaptive, BlueNoiseTile, Opening, SceneBuffers, Trace};
 use thinlens::renderer::schedule::Pass;
 use thinlens::vulkan::{Buffer, Commands, Image, Instance, Residence};
@@ -26,7 +26,7 @@ fn a_deliberate_error_is_caught() {
 fn record_two_passes(gpu: &Gpu, barrier: bool) {
     let settings = small("suffern-boxes");
     let estimator = &settings.estimator;
-    let constants = estimator_constants(estimator);
+    let constants = lens_constants(estimator);
     let device = gpu.device();
     let image = |name| Arc::new(Image::rgba32f(device, name, estimator.size).expect("an image"));
     let (batch, film) = (image("batch"), image("film"));
@@ -36,8 +36,8 @@ fn record_two_passes(gpu: &Gpu, barrier: bool) {
         SceneBuffers::new(device, &SceneData::new(&estimator.scene, estimator.shutter)).expect("a scene");
     let tile = BlueNoiseTile::new(device).expect("a tile");
     let (trace, accumulate) = (
-        Trace::new(device, Trace::SHADER, constants, 0, &scene, &tile).expect("trace"),
-        Accumulate::new(device, Accumulate::SHADER, constants, &tile).expect("accumulate"),
+        Trace::new(device, Trace::SHADER, &constants, &scene, &tile).expect("trace"),
+        Accumulate::new(device, Accumulate::SHADER, &constants, &tile).expect("accumulate"),
     );
     let opening = Opening::new(device, &[]).expect("an opening");
     let adaptive = Adaptive::new(device, None).expect("images");

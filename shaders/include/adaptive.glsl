@@ -5,21 +5,18 @@
 
 #include "film.glsl"
 
-layout(constant_id = 1) const uint IS_ADAPTIVE = 0u;
+layout(constant_id = ID_HAS_MOMENTS) const uint HAS_MOMENTS = 0u;
 
 // Once some pixels have stopped, those that have not: how many, then the column and the row of each in 16
 // bits.
-layout(set = 0, binding = 13, std430) readonly buffer ActivePixels { uint active_pixels[]; };
-
-// A dispatch over the list has rows of so many workgroups of 64 (see schedule::LISTED_ROW).
-const uint LISTED_ROW_GROUPS = 128u;
+layout(set = 0, binding = BINDING_ACTIVE_PIXELS, std430) readonly buffer ActivePixels { uint active_pixels[]; };
 
 // The pixel of this invocation, if it has one: of the lattice, or, where that has no stride, of the list
 // from origin.x on.
 bool find_pixel(Lattice lattice, out uvec2 pixel) {
-    if (IS_ADAPTIVE == 1u && lattice.stride == 0u) {
+    if (HAS_MOMENTS == 1u && lattice.stride == 0u) {
         uint group = gl_WorkGroupID.y * LISTED_ROW_GROUPS + gl_WorkGroupID.x;
-        uint index = lattice.origin.x + 64u * group + gl_LocalInvocationIndex;
+        uint index = lattice.origin.x + GROUP_SIZE * GROUP_SIZE * group + gl_LocalInvocationIndex;
         if (index >= active_pixels[0]) {
             pixel = uvec2(0u);
             return false;
@@ -31,7 +28,7 @@ bool find_pixel(Lattice lattice, out uvec2 pixel) {
     // Eight invocations that follow one another cover 4 by 2 pixels and not 8 by 1: their rays stay closer.
     uvec2 local = gl_LocalInvocationID.xy;
     uvec2 place = uvec2(local.x & 3u | (local.y & 1u) << 2u, local.x >> 2u | local.y & 6u);
-    pixel = lattice_pixel(lattice, 8u * gl_WorkGroupID.xy + place);
+    pixel = lattice_pixel(lattice, GROUP_SIZE * gl_WorkGroupID.xy + place);
     return inside(pixel, lattice.extent);
 }
 

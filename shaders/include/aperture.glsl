@@ -5,13 +5,7 @@
 
 #include "sampling.glsl"
 
-const uint APERTURE_DISC = 0u;
-const uint APERTURE_BLADES = 1u;
-const uint APERTURE_CATS_EYE = 2u;
-const uint APERTURE_IMAGE = 3u;
-const uint APERTURE_ELLIPSE = 4u;
-
-layout(constant_id = 15) const uint APERTURE = APERTURE_DISC;
+layout(constant_id = ID_APERTURE) const uint APERTURE = APERTURE_DISC;
 
 struct Aperture {
     vec2 stretch; // half its width and height, of an opening of diameter two
@@ -29,9 +23,9 @@ struct Aperture {
     float shutter; // how long it is open, in seconds
 };
 
-layout(set = 0, binding = 17, std430) readonly buffer ApertureBuffer {
+layout(set = 0, binding = BINDING_APERTURE, std430) readonly buffer ApertureBuffer {
     Aperture shape;
-    vec2 edges[16]; // the directions of the blades' edges, from the middle
+    vec2 edges[MOST_BLADES]; // the directions of the blades' edges, from the middle
 } aperture_buffer;
 
 // A copy, for the same reason as the scene's (see keep_scene).
@@ -43,7 +37,7 @@ void keep_aperture() {
 }
 
 // Running sums of the image's light, from 0 to 1: of its rows, then within each row. Four to a texel.
-layout(set = 0, binding = 18) uniform utextureBuffer aperture_sums;
+layout(set = 0, binding = BINDING_APERTURE_SUMS) uniform utextureBuffer aperture_sums;
 
 // Cosine and sine of an angle up to pi / 3: the built-in ones may err by 2^-11.
 vec2 cosine_and_sine(float angle) {

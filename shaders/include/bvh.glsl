@@ -16,19 +16,14 @@
 const float BOX_SLACK = 1.0 + 1e-6;
 
 // Nodes on the longest way from the root to a leaf; at each, some children can be left behind.
-layout(constant_id = 10) const uint TREE_DEPTH = 0u; // 0: no tree
-layout(constant_id = 11) const uint TREE_KINDS = 0u; // the kinds of shapes in it, a bit each
+layout(constant_id = ID_TREE_DEPTH) const uint TREE_DEPTH = 0u; // 0: no tree
+layout(constant_id = ID_TREE_KINDS) const uint TREE_KINDS = 0u; // the kinds of shapes in it, a bit each
 // A ray that needs more steps is given up: Mesa's software device would end it silently later on.
-layout(constant_id = 12) const uint MOST_TREE_STEPS = 1024u;
+layout(constant_id = ID_MOST_TREE_STEPS) const uint MOST_TREE_STEPS = 1024u;
 
-const uint KIND_SPHERE = 0u;
-const uint KIND_BOX = 1u;
-const uint KIND_TRIANGLE = 2u;
-const uint KIND_SMOOTH = 3u; // a bit of TREE_KINDS only: some triangles have normals
-
-layout(set = 0, binding = 10) uniform usamplerBuffer tree_records; // three texels each: TreeNode or TreeShape
-layout(set = 0, binding = 11) uniform usamplerBuffer tree_normals; // three texels each
-layout(set = 0, binding = 12) uniform usamplerBuffer tree_velocities; // of its shapes, a second
+layout(set = 0, binding = BINDING_TREE_RECORDS) uniform usamplerBuffer tree_records; // three texels each: TreeNode or TreeShape
+layout(set = 0, binding = BINDING_TREE_NORMALS) uniform usamplerBuffer tree_normals; // three texels each
+layout(set = 0, binding = BINDING_TREE_VELOCITIES) uniform usamplerBuffer tree_velocities; // of its shapes, a second
 
 // Boxes around the children, whose planes stand on a grid of the node's own.
 struct TreeNode {
@@ -96,7 +91,7 @@ TreeShape shape_now(uvec4 record[3], out vec3 way) {
     if (SCENE_MOVES == 1u) {
         way = ray_time * uintBitsToFloat(texelFetch(tree_velocities, int(shape.index)).xyz);
         shape.position += way;
-        shape.a += shape.kind == KIND_BOX ? way : vec3(0.0);
+        shape.a += shape.kind == SHAPE_BOX ? way : vec3(0.0);
     }
     return shape;
 }
@@ -110,19 +105,19 @@ Triangle to_triangle(TreeShape shape) {
 
 float intersect_tree_shape(Ray ray, vec3 inverse_direction, TreeShape shape) {
     float distance = MISS;
-    if (in_tree(KIND_TRIANGLE)) {
+    if (in_tree(SHAPE_TRIANGLE)) {
         vec2 barycentric;
         distance = intersect_triangle(ray, to_triangle(shape), barycentric);
     }
-    if (in_tree(KIND_SPHERE)) {
+    if (in_tree(SHAPE_SPHERE)) {
         float at_sphere = intersect_sphere(ray, Sphere(shape.position, shape.a.x));
-        distance = shape.kind == KIND_SPHERE ? at_sphere : distance;
+        distance = shape.kind == SHAPE_SPHERE ? at_sphere : distance;
     }
-    if (in_tree(KIND_BOX)) {
+    if (in_tree(SHAPE_BOX)) {
         vec3 normal;
         float offset;
         float at_box = intersect_box(ray, inverse_direction, Box(shape.position, shape.a), normal, offset);
-        distance = shape.kind == KIND_BOX ? at_box : distance;
+        distance = shape.kind == SHAPE_BOX ? at_box : distance;
     }
     return distance;
 }
@@ -171,11 +166,12 @@ uint meet_children(Ray ray, vec3 inverse_direction, float limit, bool sorted, Tr
     return keys[0] != FAR_KEY ? met << 2u | keys[0] & 3u : met;
 }
 
-// What was left behind of nodes' children, the last first: the first child's record, and in seven bits those
+// What was left behind of nodes' children, the last first: the first child's record, and in the lowest bits those
 // still to be visited, as meet_children() gives them. A stack that shifts needs no index that differs from
 // invocation to invocation, and is spelled out, for Mesa's software device unrolls no loop inside another one.
 uint stack[TREE_DEPTH + 1u];
-const uint SPELLED_OUT = 20u;
+const uint STACK_CHILD_BITS = 32u - STACK_INDEX_BITS;
+const uint STACK_CHILDREN = (1u << STACK_CHILD_BITS) - 1u;
 
 #define SHIFT(i) \
     if (depth >= i) { \
@@ -190,7 +186,7 @@ uint shift_stack(bool pushes, bool pops, uint above) {
     uint top = stack[0];
     SHIFT(1u) SHIFT(2u) SHIFT(3u) SHIFT(4u) SHIFT(5u) SHIFT(6u) SHIFT(7u) SHIFT(8u) SHIFT(9u) SHIFT(10u)
     SHIFT(11u) SHIFT(12u) SHIFT(13u) SHIFT(14u) SHIFT(15u) SHIFT(16u) SHIFT(17u) SHIFT(18u) SHIFT(19u) SHIFT(20u)
-    for (uint i = SPELLED_OUT + 1u; i <= depth; ++i) {
+    for (uint i = SPELLED_OUT_STACK + 1u; i <= depth; ++i) {
         SHIFT(i)
     }
     return top;
@@ -212,7 +208,7 @@ float search_tree(Ray ray, vec3 inverse_direction, float limit, bool any_will_do
     do {
         uint index = first + (children & 3u);
         children >>= 2u;
-        uint left_behind = first << 7u | children;
+        uint left_behind = first << STACK_CHILD_BITS | children;
         uvec4 record[3];
         fetch_record(index, record);
         bool descends = false;
@@ -230,12 +226,12 @@ float search_tree(Ray ray, vec3 inverse_direction, float limit, bool any_will_do
             nearest = closer ? index : nearest;
             distance = closer ? at : distance;
         }
-        bool pushes = descends && (left_behind & 0x7fu) != NO_CHILDREN;
+        bool pushes = descends && (left_behind & STACK_CHILDREN) != NO_CHILDREN;
         bool pops = children == NO_CHILDREN;
         uint top = shift_stack(pushes, pops, left_behind);
         if (pops) {
-            first = top >> 7u;
-            children = top & 0x7fu;
+            first = top >> STACK_CHILD_BITS;
+            children = top & STACK_CHILDREN;
         }
         searching = children != NO_CHILDREN && !(any_will_do && distance < limit);
         ++steps;
@@ -265,17 +261,17 @@ Hit intersect_tree(Ray ray, vec3 inverse_direction, inout bool given_up) {
     vec3 way;
     TreeShape shape = shape_now(record, way);
     Hit hit = Hit(distance, shape.material, -shape.position, 1.0, shape.a.x, 0.0, vec3(0.0), way);
-    if (in_tree(KIND_BOX) && shape.kind == KIND_BOX) {
+    if (in_tree(SHAPE_BOX) && shape.kind == SHAPE_BOX) {
         intersect_box(ray, inverse_direction, Box(shape.position, shape.a), hit.normal, hit.offset);
         hit.curvature = 0.0;
     }
-    if (in_tree(KIND_TRIANGLE) && shape.kind == KIND_TRIANGLE) {
+    if (in_tree(SHAPE_TRIANGLE) && shape.kind == SHAPE_TRIANGLE) {
         Triangle triangle = to_triangle(shape);
         hit.normal = cross(triangle.edge1, triangle.edge2);
         hit.curvature = 0.0;
         hit.offset = triangle.offset;
         hit.size = triangle.size;
-        if (in_tree(KIND_SMOOTH)) {
+        if (in_tree(SHAPE_SMOOTH)) {
             vec2 barycentric;
             intersect_triangle(ray, triangle, barycentric);
             hit.shading_normal = interpolated_normal(shape.index, barycentric, hit.normal);

@@ -3,6 +3,8 @@
 #ifndef FILM_GLSL
 #define FILM_GLSL
 
+#include "interface.glsl"
+
 // The pixels that a dispatch covers: origin + stride * invocation, inside extent. A stride above
 // one is the interleaved preview.
 struct Lattice {

@@ -6,8 +6,6 @@
 #include "camera.glsl"
 #include "scene.glsl"
 
-const float MISS = 1e30;
-
 // Not min() and max(): what those must do with a NaN costs a software device three instructions more.
 float smaller(float a, float b) { return a < b ? a : b; }
 float larger(float a, float b) { return a > b ? a : b; }

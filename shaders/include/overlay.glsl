@@ -3,24 +3,14 @@
 #ifndef OVERLAY_GLSL
 #define OVERLAY_GLSL
 
-const uint OVERLAY_COUNT = 1u; // samples, as a share of full_scale
-const uint OVERLAY_ERROR = 2u; // the standard error of a pixel's mean, from none to full_scale
-const uint OVERLAY_DEPTH = 3u; // white at the lens, grey in the focal plane, black far away
-const uint OVERLAY_BLUR = 4u; // the circle of confusion, in front and behind, up to full_scale pixels
-const uint OVERLAY_PEAKING = 5u; // the picture, with what is blurred over less than full_scale pixels marked
-const uint OVERLAY_FOCAL_PLANE = 6u; // the picture, with what lies in the focal plane marked
-
-const vec3 IN_FRONT = vec3(0.02, 0.22, 1.0);
-const vec3 BEHIND = vec3(1.0, 0.2, 0.01);
-const vec3 MARK = vec3(0.05, 1.0, 0.1);
-const vec3 SLICE = vec3(1.0, 0.6, 0.0);
+#include "interface.glsl"
 
 // How far from the focal plane a point still counts as in it, as a share of its distance.
 const float SLICE_HALF_WIDTH = 0.006;
 
 struct OverlayScale {
     uint kind;
-    float full_scale;
+    float full_scale; // of samples, of the error, or of the circle of confusion in pixels
     float blur; // the diameter of the lens times k, in pixels times scene units
     float inverse_image_distance; // of the focal plane; of a hole -1 / v
     float inverse_focal_distance;
@@ -42,7 +32,7 @@ vec3 overlay_color(OverlayScale scale, vec3 picture, float count, float error, f
         return vec3(count / scale.full_scale);
     case OVERLAY_ERROR:
         return heat(error / scale.full_scale);
-    case OVERLAY_DEPTH:
+    case OVERLAY_DEPTH: // white at the lens, grey in the focal plane, black far away
         return vec3(1.0 / (1.0 + depth * scale.inverse_focal_distance));
     case OVERLAY_BLUR:
         float share = clamp(circle_of_confusion(scale, depth) / scale.full_scale, -1.0, 1.0);

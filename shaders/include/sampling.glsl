@@ -6,16 +6,13 @@
 #ifndef SAMPLING_GLSL
 #define SAMPLING_GLSL
 
+#include "interface.glsl"
 #include "sobol.glsl"
 
-const uint SAMPLER_RANDOM = 0u;
-const uint SAMPLER_SOBOL = 1u;
-const uint SAMPLER_BLUE_NOISE = 2u;
-
-layout(constant_id = 0) const uint SAMPLER = SAMPLER_RANDOM;
+layout(constant_id = ID_SAMPLER) const uint SAMPLER = SAMPLER_RANDOM;
 
 // The tile of examples/blue_noise_tile.rs: a number of 16 bits a pixel, row by row, eight a texel.
-layout(set = 0, binding = 16) uniform utextureBuffer blue_noise_tile;
+layout(set = 0, binding = BINDING_BLUE_NOISE_TILE) uniform utextureBuffer blue_noise_tile;
 const uint TILE = 128u;
 const uvec4 BLUE_NOISE_SCRAMBLE = uvec4(0x0e7ef62eu, 0xeec210f3u, 0xbced7d2au, 0x84af394du);
 

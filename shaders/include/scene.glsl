@@ -4,6 +4,8 @@
 #ifndef SCENE_GLSL
 #define SCENE_GLSL
 
+#include "interface.glsl"
+
 struct Sphere {
     vec3 center;
     float radius;
@@ -55,36 +57,36 @@ struct Environment {
 };
 
 // The numbers of things are specialization constants, so that loops over them can unroll.
-layout(constant_id = 2) const uint SPHERE_COUNT = 1u;
-layout(constant_id = 3) const uint BOX_COUNT = 1u;
-layout(constant_id = 4) const uint TRIANGLE_COUNT = 1u;
-layout(constant_id = 5) const uint PLANE_COUNT = 1u;
-layout(constant_id = 6) const uint LIGHT_COUNT = 1u;
-layout(constant_id = 7) const uint SHADOW_LIGHT_COUNT = 1u; // the first so many lights cast shadows
-layout(constant_id = 8) const uint MATERIAL_COUNT = 1u;
+layout(constant_id = ID_SPHERE_COUNT) const uint SPHERE_COUNT = 1u;
+layout(constant_id = ID_BOX_COUNT) const uint BOX_COUNT = 1u;
+layout(constant_id = ID_TRIANGLE_COUNT) const uint TRIANGLE_COUNT = 1u;
+layout(constant_id = ID_PLANE_COUNT) const uint PLANE_COUNT = 1u;
+layout(constant_id = ID_LIGHT_COUNT) const uint LIGHT_COUNT = 1u;
+layout(constant_id = ID_SHADOW_LIGHT_COUNT) const uint SHADOW_LIGHT_COUNT = 1u; // the first so many lights cast shadows
+layout(constant_id = ID_MATERIAL_COUNT) const uint MATERIAL_COUNT = 1u;
 // Whether the scene is copied to variables before any control flow. Mesa's software device loads from
 // a buffer lane by lane inside loops and branches, and once for all lanes outside of them, which makes
 // rays about three times as fast. A GPU would run out of registers.
-layout(constant_id = 9) const uint SCENE_IS_KEPT = 0u;
+layout(constant_id = ID_SCENE_IS_KEPT) const uint SCENE_IS_KEPT = 0u;
 
 // Whether any shape moves.
-layout(constant_id = 13) const uint SCENE_MOVES = 0u;
+layout(constant_id = ID_SCENE_MOVES) const uint SCENE_MOVES = 0u;
 // Whether checkers have a phase.
-layout(constant_id = 14) const uint SCENE_IS_SHIFTED = 0u;
+layout(constant_id = ID_SCENE_IS_SHIFTED) const uint SCENE_IS_SHIFTED = 0u;
 
 // Of the sample that is traced: seconds from the middle of the exposure, where the shapes are as given.
 float ray_time = 0.0;
 
-layout(set = 0, binding = 2, std430) readonly buffer Spheres { Sphere spheres[]; };
-layout(set = 0, binding = 3, std430) readonly buffer Boxes { Box boxes[]; };
-layout(set = 0, binding = 4, std430) readonly buffer Triangles { Triangle triangles[]; };
-layout(set = 0, binding = 5, std430) readonly buffer Planes { Plane planes[]; };
-layout(set = 0, binding = 6, std430) readonly buffer MaterialOfShape { uint material_of_shape[]; };
-layout(set = 0, binding = 7, std430) readonly buffer Materials { Material materials[]; };
-layout(set = 0, binding = 8, std430) readonly buffer Lights { Light lights[]; };
-layout(set = 0, binding = 9, std430) readonly buffer EnvironmentBuffer { Environment environment; };
+layout(set = 0, binding = BINDING_SPHERES, std430) readonly buffer Spheres { Sphere spheres[]; };
+layout(set = 0, binding = BINDING_BOXES, std430) readonly buffer Boxes { Box boxes[]; };
+layout(set = 0, binding = BINDING_TRIANGLES, std430) readonly buffer Triangles { Triangle triangles[]; };
+layout(set = 0, binding = BINDING_PLANES, std430) readonly buffer Planes { Plane planes[]; };
+layout(set = 0, binding = BINDING_MATERIAL_OF_SHAPE, std430) readonly buffer MaterialOfShape { uint material_of_shape[]; };
+layout(set = 0, binding = BINDING_MATERIALS, std430) readonly buffer Materials { Material materials[]; };
+layout(set = 0, binding = BINDING_LIGHTS, std430) readonly buffer Lights { Light lights[]; };
+layout(set = 0, binding = BINDING_ENVIRONMENT, std430) readonly buffer EnvironmentBuffer { Environment environment; };
 
-layout(set = 0, binding = 19, std430) readonly buffer Velocities { vec4 velocities[]; }; // a second
+layout(set = 0, binding = BINDING_VELOCITIES, std430) readonly buffer Velocities { vec4 velocities[]; }; // a second
 
 // How many of each are copied: none where the scene is not, for some compilers find room for every element of
 // an array, used or not.

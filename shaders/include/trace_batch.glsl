@@ -19,7 +19,7 @@ struct TracePush {
 // To be copied first thing in main(), for the same reason as the scene (see keep_scene).
 layout(push_constant, std430) uniform TraceConstants { TracePush push_constants; };
 
-layout(set = 0, binding = 1, std430) buffer Counters {
+layout(set = 0, binding = BINDING_COUNTERS, std430) buffer Counters {
     uint rays;
     uint rejected_samples;
     uint listed_samples; // traced for pixels of the list, whose number the host does not know
@@ -53,7 +53,7 @@ vec4 trace_batch(TracePush push, uvec2 pixel, out float moment) {
         }
         if (is_finite(color)) {
             vec4 one = vec4(color, 1.0);
-            if (IS_ADAPTIVE == 1u) {
+            if (HAS_MOMENTS == 1u) {
                 moment = merge_moments(batch, moment, one, 0.0);
             }
             batch = merge(batch, one);
@@ -65,7 +65,7 @@ vec4 trace_batch(TracePush push, uvec2 pixel, out float moment) {
     if (rejected > 0u) {
         atomicAdd(counters.rejected_samples, rejected);
     }
-    if (IS_ADAPTIVE == 1u && push.lattice.stride == 0u) {
+    if (HAS_MOMENTS == 1u && push.lattice.stride == 0u) {
         atomicAdd(counters.listed_samples, push.sample_count);
     }
     return batch;

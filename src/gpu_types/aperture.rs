@@ -1,5 +1,6 @@
 //! The opening as the shaders want it.
 
+use crate::interface::{self, constant};
 use crate::scene::{self, ApertureImage, CameraModel};
 use crate::settings::Estimator;
 use bytemuck::{Pod, Zeroable};
@@ -29,21 +30,23 @@ pub struct Aperture {
 #[derive(Debug, Clone, Copy, Pod, Zeroable, PartialEq)]
 pub struct ApertureBuffer {
     pub shape: Aperture,
-    pub edges: [[f32; 2]; 16],
+    pub edges: [[f32; 2]; interface::MOST_BLADES as usize],
 }
 
-/// The specialization constant 14: `APERTURE` of aperture.glsl.
-pub fn aperture_constant(estimator: &Estimator) -> u32 {
+/// `APERTURE` of aperture.glsl.
+pub fn aperture_constant(estimator: &Estimator) -> (u32, u32) {
+    use interface::aperture::{BLADES, CATS_EYE, DISC, ELLIPSE, IMAGE};
     let aperture = &estimator.aperture;
-    match estimator.model {
-        CameraModel::Pinhole => 0,
-        _ if aperture.image.is_some() => 3,
-        _ if aperture.blades > 0 => 1,
+    let code = match estimator.model {
+        CameraModel::Pinhole => DISC,
+        _ if aperture.image.is_some() => IMAGE,
+        _ if aperture.blades > 0 => BLADES,
         // A hole has no front rim.
-        CameraModel::ThinLens if aperture.cats_eye > 0.0 => 2,
-        _ if aperture.anamorphic != 1.0 => 4,
-        _ => 0,
-    }
+        CameraModel::ThinLens if aperture.cats_eye > 0.0 => CATS_EYE,
+        _ if aperture.anamorphic != 1.0 => ELLIPSE,
+        _ => DISC,
+    };
+    (constant::APERTURE, code)
 }
 
 impl ApertureBuffer {
@@ -66,7 +69,7 @@ impl ApertureBuffer {
             shutter: estimator.shutter,
             ..Zeroable::zeroed()
         };
-        let mut edges = [[0.0; 2]; 16];
+        let mut edges = [[0.0; 2]; interface::MOST_BLADES as usize];
         if aperture.blades > 0 {
             let (half, roundness) = (aperture.half_blade(), f64::from(aperture.roundness));
             // Areas between a middle and a corner, of the polygon's part and the disc's.
@@ -116,4 +119,4 @@ fn running(light: impl Iterator<Item = f64>) -> Vec<f32> {
     sums.iter().map(|sum| (sum / all) as f32).collect()
 }
 
-const _: () = assert!(*scene::BLADES.end() <= 16);
+const _: () = assert!(*scene::BLADES.end() <= interface::MOST_BLADES);

@@ -10,6 +10,7 @@ pub use aperture::{Aperture, ApertureBuffer, aperture_constant, aperture_sums};
 pub use brightest::Brightest;
 pub use scene::{SceneData, Tree};
 
+use crate::interface::{constant, overlay, sampler};
 use crate::scene::{CameraModel, Hole, Overlay};
 use crate::settings::{Estimator, Sampler, Settings};
 use bytemuck::{Pod, Zeroable};
@@ -239,21 +240,21 @@ pub struct PickedRay {
 impl OverlayScale {
     /// How the overlay of these settings is drawn; of none, where there is none.
     pub fn new(settings: &Settings) -> Self {
-        let Some(overlay) = settings.view.overlay else {
+        let Some(shown) = settings.view.overlay else {
             return Self::default();
         };
         let camera = Camera::new(&settings.estimator);
-        let kind = match overlay {
-            Overlay::Count => 1,
-            Overlay::Error => 2,
-            Overlay::Depth => 3,
-            Overlay::Blur => 4,
-            Overlay::FocusPeaking => 5,
-            Overlay::FocalPlane => 6,
+        let kind = match shown {
+            Overlay::Count => overlay::COUNT,
+            Overlay::Error => overlay::ERROR,
+            Overlay::Depth => overlay::DEPTH,
+            Overlay::Blur => overlay::BLUR,
+            Overlay::FocusPeaking => overlay::PEAKING,
+            Overlay::FocalPlane => overlay::FOCAL_PLANE,
         };
         Self {
             kind,
-            full_scale: settings.overlay_scale(overlay),
+            full_scale: settings.overlay_scale(shown),
             blur: 2.0 * camera.lens_radius / camera.inverse_view_distance.abs(),
             inverse_image_distance: camera.inverse_focal_distance,
             inverse_focal_distance: settings.estimator.lens.focal_distance.recip(),
@@ -261,18 +262,25 @@ impl OverlayScale {
     }
 }
 
-/// The specialization constants 0 and 1: `SAMPLER` of sampling.glsl, `IS_ADAPTIVE` of adaptive.glsl.
-pub fn estimator_constants(estimator: &Estimator) -> [u32; 2] {
-    [sampler_constant(estimator.sampler), estimator.has_moments().into()]
+/// The specialization constants of the passes that work on the film alone.
+pub fn film_constants(estimator: &Estimator) -> [(u32, u32); 2] {
+    [sampler_constant(estimator.sampler), (constant::HAS_MOMENTS, estimator.has_moments().into())]
 }
 
-/// `SAMPLER` of sampling.glsl, the specialization constant 0.
-pub fn sampler_constant(sampler: Sampler) -> u32 {
-    match sampler {
-        Sampler::Random => 0,
-        Sampler::Sobol => 1,
-        Sampler::BlueNoise => 2,
-    }
+/// The specialization constants of the passes that trace rays through the lens, but for those of the scene.
+pub fn lens_constants(estimator: &Estimator) -> [(u32, u32); 3] {
+    let [sampler, has_moments] = film_constants(estimator);
+    [sampler, has_moments, aperture_constant(estimator)]
+}
+
+/// `SAMPLER` of sampling.glsl.
+pub fn sampler_constant(chosen: Sampler) -> (u32, u32) {
+    let code = match chosen {
+        Sampler::Random => sampler::RANDOM,
+        Sampler::Sobol => sampler::SOBOL,
+        Sampler::BlueNoise => sampler::BLUE_NOISE,
+    };
+    (constant::SAMPLER, code)
 }
 
 impl Lattice {

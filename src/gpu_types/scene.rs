@@ -1,15 +1,13 @@
 //! A scene as the shaders want it.
 
 use super::{Box, Environment, Light, Material, Plane, Sphere, TreeNode, TreeShape, Triangle};
+use crate::interface::shape;
 use crate::scene::{self, Bounded, Bvh, LightKind, Node, Record, SceneRef, Shaded};
 use bytemuck::Zeroable;
 use glam::{DVec3, Vec3};
 
 /// More bounded shapes than these go into a tree: with fewer, trying each is faster.
 const MOST_LISTED_SHAPES: usize = 64;
-
-/// `KIND_SMOOTH` of bvh.glsl.
-const SMOOTH: u32 = 3;
 
 /// A scene's buffers, in the shaders' order of shapes: spheres, boxes, triangles, planes.
 #[derive(Debug)]
@@ -129,7 +127,7 @@ impl Tree {
             // Zero at each corner stands for the triangle's own.
             let corners = bvh.shapes.iter().map(|of| normals(&of.shape).unwrap_or_default());
             tree.normals = corners.map(|corners| corners.map(|normal| with_zero(floats(normal)))).collect();
-            tree.kinds |= 1 << SMOOTH;
+            tree.kinds |= 1 << shape::SMOOTH;
         }
         tree
     }
@@ -172,12 +170,11 @@ fn with_zero([x, y, z]: [f32; 3]) -> [f32; 4] {
     [x, y, z, 0.0]
 }
 
-/// `KIND_SPHERE` and so on of bvh.glsl.
-fn kind(shape: &Bounded) -> u32 {
-    match shape {
-        Bounded::Sphere(_) => 0,
-        Bounded::Box(_) => 1,
-        Bounded::Triangle(_) => 2,
+fn kind(of: &Bounded) -> u32 {
+    match of {
+        Bounded::Sphere(_) => shape::SPHERE,
+        Bounded::Box(_) => shape::BOX,
+        Bounded::Triangle(_) => shape::TRIANGLE,
     }
 }
 

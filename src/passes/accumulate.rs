@@ -24,10 +24,10 @@ impl Accumulate {
     pub fn new(
         device: &Arc<Device>,
         shader: Shader,
-        estimator: [u32; 2],
+        estimator: &[(u32, u32)],
         tile: &BlueNoiseTile,
     ) -> Result<Self> {
-        Ok(Self { pipeline: ComputePipeline::new(device, shader, &estimator)?, tile: tile.clone() })
+        Ok(Self { pipeline: ComputePipeline::new(device, shader, estimator)?, tile: tile.clone() })
     }
 
     /// Width and height of a workgroup: tiles are cut at multiples of it.

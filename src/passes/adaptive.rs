@@ -3,6 +3,7 @@
 
 use crate::error::Result;
 use crate::gpu_types::Brightest;
+use crate::interface::binding;
 use crate::vulkan::{Binding, Buffer, Device, Image, Recording, Residence};
 use std::sync::Arc;
 
@@ -57,15 +58,20 @@ impl Adaptive {
         list: usize,
     ) -> [(u32, Binding); 3] {
         [
-            (0, Binding::Image(Arc::clone(batch))),
-            (1, Binding::Image(Arc::clone(film))),
-            self.bind_list(13, list),
+            (binding::TRACED_IMAGE, Binding::Image(Arc::clone(batch))),
+            (binding::FILM_IMAGE, Binding::Image(Arc::clone(film))),
+            self.bind_active(list),
         ]
     }
 
-    /// One of the lists, bound there.
-    pub fn bind_list(&self, binding: u32, list: usize) -> (u32, Binding) {
-        (binding, Binding::Buffer(Arc::clone(&self.lists[list])))
+    /// One of the lists, as that of the active pixels.
+    pub fn bind_active(&self, list: usize) -> (u32, Binding) {
+        (binding::ACTIVE_PIXELS, Binding::Buffer(Arc::clone(&self.lists[list])))
+    }
+
+    /// One of the lists, as that of the pixels that a selection keeps.
+    pub(super) fn bind_kept(&self, list: usize) -> (u32, Binding) {
+        (binding::KEPT_PIXELS, Binding::Buffer(Arc::clone(&self.lists[list])))
     }
 
     /// Writes how bright what rays can meet is.
@@ -74,14 +80,14 @@ impl Adaptive {
     }
 
     pub(super) fn bind_brightest(&self) -> (u32, Binding) {
-        (2, Binding::Buffer(Arc::clone(&self.brightest)))
+        (binding::BRIGHTEST, Binding::Buffer(Arc::clone(&self.brightest)))
     }
 
     pub(super) fn bind_batch_moments(&self) -> (u32, Binding) {
-        (14, Binding::Image(Arc::clone(&self.moments[0])))
+        (binding::TRACED_MOMENTS, Binding::Image(Arc::clone(&self.moments[0])))
     }
 
     pub(super) fn bind_film_moments(&self) -> (u32, Binding) {
-        (15, Binding::Image(Arc::clone(&self.moments[1])))
+        (binding::FILM_MOMENTS, Binding::Image(Arc::clone(&self.moments[1])))
     }
 }

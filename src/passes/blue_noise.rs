@@ -1,6 +1,7 @@
 //! What the blue-noise sampler reads.
 
 use crate::error::Result;
+use crate::interface::binding;
 use crate::vulkan::{Binding, Device, TexelBuffer};
 use std::sync::Arc;
 
@@ -21,6 +22,6 @@ impl BlueNoiseTile {
 
     /// It, and where the shaders want it.
     pub fn binding(&self) -> (u32, Binding) {
-        (16, Binding::Texels(Arc::clone(&self.0)))
+        (binding::BLUE_NOISE_TILE, Binding::Texels(Arc::clone(&self.0)))
     }
 }

@@ -3,6 +3,7 @@
 use super::SceneBuffers;
 use crate::error::Result;
 use crate::gpu_types::{Camera, GeometryPush};
+use crate::interface::binding;
 use crate::vulkan::{Binding, BindingSet, ComputePipeline, Device, Image, Recording, Shader, shader};
 use std::sync::Arc;
 
@@ -20,20 +21,21 @@ impl Geometry {
     /// The shader.
     pub const SHADER: Shader = shader!("geometry");
 
-    /// Compiles the pass from its shader, or one with the same interface, for a scene, and the constants of
-    /// its estimator. It writes `depth`.
+    /// Compiles the pass from its shader, or one with the same interface, for a scene.
+    /// It writes `depth`.
     ///
     /// # Errors
     /// What Vulkan says.
     pub fn new(
         device: &Arc<Device>,
         shader: Shader,
-        estimator: [u32; 2],
         scene: &SceneBuffers,
         depth: &Arc<Image>,
     ) -> Result<Self> {
-        let pipeline = ComputePipeline::new(device, shader, &scene.constants(estimator))?;
-        let bindings = BindingSet::new(&pipeline, &scene.bindings(&[Binding::Image(Arc::clone(depth))]))?;
+        let pipeline = ComputePipeline::new(device, shader, scene.constants())?;
+        let mut bindings = scene.bindings();
+        bindings.push((binding::DEPTH_IMAGE, Binding::Image(Arc::clone(depth))));
+        let bindings = BindingSet::new(&pipeline, &bindings)?;
         Ok(Self { pipeline, bindings, depth: Arc::clone(depth) })
     }
 

@@ -2,6 +2,7 @@
 
 use crate::error::Result;
 use crate::gpu_types::ApertureBuffer;
+use crate::interface::binding;
 use crate::vulkan::{Binding, Buffer, Device, Recording, Residence, TexelBuffer};
 use std::sync::Arc;
 
@@ -32,6 +33,9 @@ impl Opening {
 
     /// Where the shaders read it.
     pub fn bindings(&self) -> [(u32, Binding); 2] {
-        [(17, Binding::Buffer(Arc::clone(&self.shape))), (18, Binding::Texels(Arc::clone(&self.sums)))]
+        [
+            (binding::APERTURE, Binding::Buffer(Arc::clone(&self.shape))),
+            (binding::APERTURE_SUMS, Binding::Texels(Arc::clone(&self.sums))),
+        ]
     }
 }

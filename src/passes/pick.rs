@@ -3,6 +3,7 @@
 use super::{BlueNoiseTile, Opening, SceneBuffers};
 use crate::error::Result;
 use crate::gpu_types::{PickPush, PickedRay};
+use crate::interface::binding;
 use crate::vulkan::{
     Binding, BindingSet, Buffer, ComputePipeline, Device, FRAMES_IN_FLIGHT, Recording, Residence, Shader,
     shader,
@@ -25,25 +26,26 @@ impl Pick {
     pub const MOST_SAMPLES: u32 = 256;
 
     /// Compiles the pass from its shader, or one with the same interface, for a scene seen through an
-    /// opening, and the constants of their estimator.
+    /// opening, and the constants of the estimator.
     ///
     /// # Errors
     /// What Vulkan says.
     pub fn new(
         device: &Arc<Device>,
         shader: Shader,
-        estimator: [u32; 2],
-        aperture: u32,
+        estimator: &[(u32, u32)],
         scene: &SceneBuffers,
         opening: &Opening,
         tile: &BlueNoiseTile,
     ) -> Result<Self> {
-        let pipeline = ComputePipeline::new(device, shader, &scene.constants_through(estimator, aperture))?;
+        let constants = [scene.constants(), estimator].concat();
+        let pipeline = ComputePipeline::new(device, shader, &constants)?;
         let most_rays = 1 + 2 * Self::MOST_FAN + Self::MOST_SAMPLES;
         let frame = || {
             let size = u64::from(most_rays) * size_of::<PickedRay>() as u64;
             let rays = Arc::new(Buffer::new(device, "picked rays", size, Residence::Host)?);
-            let mut bindings = scene.bindings(&[Binding::Buffer(Arc::clone(&rays))]);
+            let mut bindings = scene.bindings();
+            bindings.push((binding::PICKED_RAYS, Binding::Buffer(Arc::clone(&rays))));
             bindings.extend(opening.bindings());
             bindings.push(tile.binding());
             let bindings = BindingSet::new(&pipeline, &bindings)?;

@@ -3,6 +3,7 @@
 use super::Adaptive;
 use crate::error::Result;
 use crate::gpu_types::ResolvePush;
+use crate::interface::{binding, constant};
 use crate::vulkan::{Binding, BindingSet, ComputePipeline, Device, Image, Recording, Shader, shader};
 use std::sync::Arc;
 
@@ -24,7 +25,7 @@ impl Resolve {
     /// # Errors
     /// What Vulkan says.
     pub fn new(device: &Arc<Device>, shader: Shader) -> Result<Self> {
-        let with = |has_holes: bool| ComputePipeline::new(device, shader, &[0, 0, has_holes.into(), 0]);
+        let with = |has_holes| pipeline(device, shader, has_holes, false, false);
         Ok(Self { with_holes: with(true)?, without_holes: with(false)?, overlays: [None, None], shader })
     }
 
@@ -35,7 +36,7 @@ impl Resolve {
     pub fn prepare_overlay(&mut self, device: &Arc<Device>, has_moments: bool) -> Result<()> {
         let overlay = &mut self.overlays[usize::from(has_moments)];
         if overlay.is_none() {
-            *overlay = Some(ComputePipeline::new(device, self.shader, &[0, has_moments.into(), 1, 1])?);
+            *overlay = Some(pipeline(device, self.shader, true, true, has_moments)?);
         }
         Ok(())
     }
@@ -52,8 +53,12 @@ impl Resolve {
         adaptive: &Adaptive,
     ) -> Result<BindingSet> {
         let image = |image: &Arc<Image>| Binding::Image(Arc::clone(image));
-        let list = adaptive.bind_list(13, 0);
-        let bindings = [(0, image(film)), (1, image(picture)), (2, image(depth)), list];
+        let bindings = [
+            (binding::FILM_IMAGE, image(film)),
+            (binding::PICTURE_IMAGE, image(picture)),
+            (binding::DEPTH_IMAGE, image(depth)),
+            adaptive.bind_active(0),
+        ];
         BindingSet::new(&self.with_holes, &[&bindings[..], &[adaptive.bind_film_moments()]].concat())
     }
 
@@ -73,4 +78,19 @@ impl Resolve {
         let cells = push.extent.map(|pixels| pixels.div_ceil(push.preview_stride));
         recording.dispatch(pipeline, bindings, bytemuck::bytes_of(push), cells);
     }
+}
+
+fn pipeline(
+    device: &Arc<Device>,
+    shader: Shader,
+    has_holes: bool,
+    has_overlay: bool,
+    has_moments: bool,
+) -> Result<ComputePipeline> {
+    let constants = [
+        (constant::HAS_HOLES, has_holes.into()),
+        (constant::HAS_OVERLAY, has_overlay.into()),
+        (constant::HAS_MOMENTS, has_moments.into()),
+    ];
+    ComputePipeline::new(device, shader, &constants)
 }

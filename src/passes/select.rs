@@ -17,8 +17,8 @@ impl Select {
     ///
     /// # Errors
     /// What Vulkan says.
-    pub fn new(device: &Arc<Device>, shader: Shader, estimator: [u32; 2]) -> Result<Self> {
-        Ok(Self(ComputePipeline::new(device, shader, &estimator)?))
+    pub fn new(device: &Arc<Device>, shader: Shader, estimator: &[(u32, u32)]) -> Result<Self> {
+        Ok(Self(ComputePipeline::new(device, shader, estimator)?))
     }
 
     /// Width and height of a workgroup: tiles are cut at multiples of it.
@@ -38,8 +38,7 @@ impl Select {
         adaptive: &Adaptive,
         list: usize,
     ) -> Result<BindingSet> {
-        let others =
-            [adaptive.bind_list(14, 1 - list), adaptive.bind_film_moments(), adaptive.bind_brightest()];
+        let others = [adaptive.bind_kept(1 - list), adaptive.bind_film_moments(), adaptive.bind_brightest()];
         BindingSet::new(&self.0, &[&adaptive.bind_images(batch, film, list)[..], &others].concat())
     }
 

@@ -36,16 +36,14 @@ impl Renderer {
         if !overlay.shows_depth() {
             return Ok(());
         }
-        let (Some(film), Some(loaded), Some(passes)) = (&mut self.film, &mut self.scene, &self.passes) else {
+        let (Some(film), Some(loaded)) = (&mut self.film, &mut self.scene) else {
             return Ok(());
         };
         film.fit_depth(&self.device, &self.resolve)?;
         if !loaded.geometry.as_ref().is_some_and(|geometry| geometry.writes(&film.depth)) {
             self.device.wait_idle()?;
             let shader = self.shaders.geometry;
-            let geometry =
-                Geometry::new(&self.device, shader, passes.constants, &loaded.buffers, &film.depth)?;
-            loaded.geometry = Some(geometry);
+            loaded.geometry = Some(Geometry::new(&self.device, shader, &loaded.buffers, &film.depth)?);
             self.seen = None;
         }
         Ok(())

@@ -17,7 +17,7 @@ pub use tally::Progress;
 use crate::error::{Error, Result};
 use crate::gpu_types::{
     ApertureBuffer, Counters, OverlayScale, ResolvePush, SceneData, aperture_constant, aperture_sums,
-    estimator_constants,
+    film_constants, lens_constants,
 };
 use crate::passes::{
     Accumulate, BlueNoiseTile, Geometry, Opening, Pick, Resolve, SceneBuffers, Select, Shaders, Trace,
@@ -83,8 +83,8 @@ pub struct Renderer {
 
 /// The passes that are compiled for an estimator.
 struct EstimatorPasses {
-    /// For which: see [`estimator_constants`].
-    constants: [u32; 2],
+    /// For which: see [`film_constants`].
+    constants: [(u32, u32); 2],
     accumulate: Accumulate,
     /// Whether the film has second moments.
     has_moments: bool,
@@ -97,7 +97,7 @@ struct LoadedScene {
     buffers: SceneBuffers,
     trace: Trace,
     /// For which it is compiled: see [`aperture_constant`].
-    aperture: u32,
+    aperture: (u32, u32),
     /// Whether anything moves, and for how long the shutter is open.
     moves: bool,
     shutter: f32,
@@ -173,7 +173,7 @@ impl Renderer {
         let mut restart =
             last.is_none_or(|last| last.estimator != settings.estimator) || settings.samples < self.samples;
         let estimator = &settings.estimator;
-        let constants = estimator_constants(estimator);
+        let constants = film_constants(estimator);
         let compiled = |passes: &EstimatorPasses| {
             passes.constants == constants && passes.select.is_some() == estimator.is_adaptive()
         };
@@ -187,12 +187,12 @@ impl Renderer {
             loaded.scene == estimator.scene && (!loaded.moves || loaded.shutter == estimator.shutter)
         };
         if !self.scene.as_ref().is_some_and(fits) {
-            self.load_scene(estimator, constants)?;
+            self.load_scene(estimator)?;
         }
         if let Some(loaded) = &self.scene {
             self.largest_batch = self.fit_loops(&loaded.buffers, estimator.max_bounces)?;
         }
-        self.fit_opening(estimator, constants)?;
+        self.fit_opening(estimator)?;
         let fits = self.film.as_ref().is_some_and(|film| film.film.extent() == estimator.size);
         if let (false, Some(passes)) = (fits, &self.passes) {
             self.device.wait_idle()?;
@@ -240,17 +240,17 @@ impl Renderer {
         }
     }
 
-    fn compile_passes(&self, constants: [u32; 2], estimator: &Estimator) -> Result<EstimatorPasses> {
-        let accumulate = Accumulate::new(&self.device, self.shaders.accumulate, constants, &self.tile)?;
+    fn compile_passes(&self, constants: [(u32, u32); 2], estimator: &Estimator) -> Result<EstimatorPasses> {
+        let accumulate = Accumulate::new(&self.device, self.shaders.accumulate, &constants, &self.tile)?;
         let select = estimator
             .is_adaptive()
-            .then(|| Select::new(&self.device, self.shaders.select, constants))
+            .then(|| Select::new(&self.device, self.shaders.select, &constants))
             .transpose()?;
         Ok(EstimatorPasses { constants, accumulate, has_moments: estimator.has_moments(), select })
     }
 
     /// Makes the trace pass and what it binds fit the aperture.
-    fn fit_opening(&mut self, estimator: &Estimator, constants: [u32; 2]) -> Result<()> {
+    fn fit_opening(&mut self, estimator: &Estimator) -> Result<()> {
         let image = &estimator.aperture.image;
         if *image != self.opening_image {
             self.device.wait_idle()?;
@@ -267,9 +267,8 @@ impl Renderer {
         if let Some(loaded) = self.scene.as_mut().filter(|loaded| loaded.aperture != aperture) {
             self.device.wait_idle()?;
             self.trace_bindings = None;
-            let shader = self.shaders.trace;
-            loaded.trace =
-                Trace::new(&self.device, shader, constants, aperture, &loaded.buffers, &self.tile)?;
+            let (shader, constants) = (self.shaders.trace, lens_constants(estimator));
+            loaded.trace = Trace::new(&self.device, shader, &constants, &loaded.buffers, &self.tile)?;
             (loaded.aperture, loaded.pick) = (aperture, None);
             // What the last pick was asked, another one cannot answer.
             self.questions = pick::none_asked();
@@ -277,7 +276,7 @@ impl Renderer {
         Ok(())
     }
 
-    fn load_scene(&mut self, estimator: &Estimator, constants: [u32; 2]) -> Result<()> {
+    fn load_scene(&mut self, estimator: &Estimator) -> Result<()> {
         self.device.wait_idle()?;
         (self.scene, self.trace_bindings) = (None, None);
         self.questions = pick::none_asked();
@@ -287,7 +286,8 @@ impl Renderer {
         let buffers = SceneBuffers::new(&self.device, &data)?;
         // A scene that is refused may also be one that the driver cannot compile the pass for.
         self.fit_loops(&buffers, estimator.max_bounces)?;
-        let trace = Trace::new(&self.device, self.shaders.trace, constants, aperture, &buffers, &self.tile)?;
+        let (shader, constants) = (self.shaders.trace, lens_constants(estimator));
+        let trace = Trace::new(&self.device, shader, &constants, &buffers, &self.tile)?;
         self.tally.forget_scene();
         let moves = data.moves;
         self.scene =

@@ -2,7 +2,8 @@
 
 use super::Renderer;
 use crate::error::Result;
-use crate::gpu_types::{Camera, PickPush};
+use crate::gpu_types::{Camera, PickPush, lens_constants};
+use crate::interface::MISS;
 use crate::passes::Pick;
 use crate::scene::{self, SceneRef};
 use crate::vulkan::{Commands, FRAMES_IN_FLIGHT, Recording};
@@ -105,15 +106,15 @@ impl Renderer {
         };
         let estimator = &settings.estimator;
         self.record_opening(recording, estimator);
-        let (Some(loaded), Some(passes)) = (&mut self.scene, &self.passes) else {
+        let Some(loaded) = &mut self.scene else {
             return Ok(());
         };
         let pick = match &mut loaded.pick {
             Some(pick) => pick,
             none => {
-                let (shader, constants, aperture) = (self.shaders.pick, passes.constants, loaded.aperture);
+                let (shader, constants) = (self.shaders.pick, lens_constants(estimator));
                 let (device, opening, tile) = (&self.device, &self.opening, &self.tile);
-                none.insert(Pick::new(device, shader, constants, aperture, &loaded.buffers, opening, tile)?)
+                none.insert(Pick::new(device, shader, &constants, &loaded.buffers, opening, tile)?)
             }
         };
         let extent = estimator.size;
@@ -174,9 +175,6 @@ impl Renderer {
         Ok(self.picked(0))
     }
 }
-
-/// `MISS` of intersect.glsl.
-const MISS: f32 = 1e30;
 
 pub(super) fn none_asked() -> [Option<Asked>; FRAMES_IN_FLIGHT] {
     std::array::from_fn(|_| None)

@@ -4,6 +4,7 @@
 //! so that the same samples are averaged in the same groups however the work is tiled.
 
 use crate::gpu_types::Lattice;
+use crate::interface::{GROUP_SIZE, LISTED_ROW_GROUPS, PREVIEW_SITE, PREVIEW_STRIDE};
 
 /// Samples a pixel in one pass, once a picture is under way.
 pub const MAX_BATCH: u32 = 64;
@@ -21,9 +22,8 @@ pub fn selects_at(samples: u32) -> bool {
     samples >= 2 * SELECT_EVERY && samples.is_multiple_of(SELECT_EVERY)
 }
 
-/// Pixels of the list of active ones that a row of tiles covers, for each row of a workgroup:
-/// `LISTED_ROW_GROUPS` of adaptive.glsl times its width.
-const LISTED_ROW: u32 = 1024;
+/// Pixels of the list of active ones that a row of tiles covers, for each row of a workgroup.
+const LISTED_ROW: u32 = LISTED_ROW_GROUPS * GROUP_SIZE;
 
 /// The columns and rows that a list of so many active pixels is traced in, in workgroups of `local`.
 pub fn listed_size(pixels: u64, local: [u32; 2]) -> [u32; 2] {
@@ -67,6 +67,8 @@ const PHASES_OF_16: [[u32; 2]; 16] = [
     [2, 1],
     [0, 3],
 ];
+const _: () =
+    assert!(PHASES_OF_16[0][0] == PREVIEW_SITE && PHASES_OF_16[0][1] == PREVIEW_SITE && PREVIEW_STRIDE == 4);
 /// Likewise for a cell of 2 x 2.
 const PHASES_OF_4: [[u32; 2]; 4] = [[0, 0], [1, 1], [1, 0], [0, 1]];
 

@@ -68,12 +68,20 @@ impl Shader {
 }
 
 impl ComputePipeline {
-    /// A pipeline of the shader, with its specialization constants 0, 1, 2, ... set.
+    /// A pipeline of the shader, with the values of its specialization constants by their ids. Those that the
+    /// shader does not have are left out: what describes a scene serves shaders that look at a part of it.
     ///
     /// # Errors
     /// What Vulkan says.
-    pub fn new(device: &Arc<Device>, shader: Shader, constants: &[u32]) -> Result<Self> {
+    ///
+    /// # Panics
+    /// Where one of the shader's constants has no value: that is a bug.
+    pub fn new(device: &Arc<Device>, shader: Shader, constants: &[(u32, u32)]) -> Result<Self> {
         let interface = shader.interface();
+        for id in &interface.constants {
+            let given = constants.iter().filter(|(given, _)| given == id).count();
+            assert_eq!(given, 1, "{}: values of the constant {id}", shader.name);
+        }
         let mut pipeline = Self {
             raw: vk::Pipeline::null(),
             layout: vk::PipelineLayout::null(),
@@ -87,7 +95,7 @@ impl ComputePipeline {
         Ok(pipeline)
     }
 
-    fn create(&mut self, words: &[u32], constants: &[u32]) -> Result<()> {
+    fn create(&mut self, words: &[u32], constants: &[(u32, u32)]) -> Result<()> {
         let bindings: Vec<_> = (self.interface.resources.iter())
             .map(|(binding, kind)| {
                 vk::DescriptorSetLayoutBinding::default()
@@ -114,12 +122,14 @@ impl ComputePipeline {
         let layout = unsafe { self.device.raw.create_pipeline_layout(&layout, None) };
         self.layout = check("creating a pipeline layout", layout)?;
 
+        let own = constants.iter().filter(|(id, _)| self.interface.constants.contains(id));
+        let (ids, values): (Vec<u32>, Vec<u32>) = own.copied().unzip();
         let entries: Vec<_> = (0..)
-            .zip(constants)
-            .map(|(id, _)| vk::SpecializationMapEntry { constant_id: id, offset: 4 * id, size: 4 })
+            .zip(ids)
+            .map(|(at, id)| vk::SpecializationMapEntry { constant_id: id, offset: 4 * at, size: 4 })
             .collect();
         let specialization =
-            vk::SpecializationInfo::default().map_entries(&entries).data(bytemuck::cast_slice(constants));
+            vk::SpecializationInfo::default().map_entries(&entries).data(bytemuck::cast_slice(&values));
         let module = vk::ShaderModuleCreateInfo::default().code(words);
         // SAFETY: the words are SPIR-V that build.rs compiled. The module is destroyed whether or
         // not the pipeline could be made of it, and not needed after.

@@ -7,7 +7,7 @@ use spirq::constant::ConstantValue;
 use spirq::spirv::ExecutionMode;
 use spirq::ty::{DescriptorType, Type};
 use spirq::var::Variable;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What a shader binds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,6 +36,10 @@ pub struct StructLayout {
 pub struct ShaderInterface {
     /// The resources of descriptor set 0, by binding.
     pub resources: BTreeMap<u32, ResourceKind>,
+    /// Their names in GLSL: of a buffer that of its block.
+    pub names: BTreeMap<u32, String>,
+    /// The ids of the specialization constants.
+    pub constants: BTreeSet<u32>,
     /// Workgroup size in x and y.
     pub local_size: [u32; 2],
     /// Bytes of push constants.
@@ -66,8 +70,14 @@ impl ShaderInterface {
         let [entry_point] = entry_points.as_slice() else {
             panic!("a compute shader has one entry point");
         };
-        let mut interface =
-            Self { resources: BTreeMap::new(), local_size: [1, 1], push_size: 0, structs: Vec::new() };
+        let mut interface = Self {
+            resources: BTreeMap::new(),
+            names: BTreeMap::new(),
+            constants: BTreeSet::new(),
+            local_size: [1, 1],
+            push_size: 0,
+            structs: Vec::new(),
+        };
         for mode in &entry_point.exec_modes {
             if mode.exec_mode == ExecutionMode::LocalSize {
                 interface.local_size = [0, 1].map(|axis| match mode.operands[axis].value {
@@ -84,7 +94,7 @@ impl ShaderInterface {
 
     fn add(&mut self, variable: &Variable) {
         match variable {
-            Variable::Descriptor { desc_bind, desc_ty, ty, .. } => {
+            Variable::Descriptor { name, desc_bind, desc_ty, ty, .. } => {
                 assert_eq!(desc_bind.set(), 0, "there is one descriptor set");
                 let kind = match desc_ty {
                     DescriptorType::StorageBuffer(_) => ResourceKind::Buffer,
@@ -92,6 +102,8 @@ impl ShaderInterface {
                     DescriptorType::UniformTexelBuffer() => ResourceKind::Texels,
                     other => panic!("no use for {other:?}"),
                 };
+                let block = if let Type::Struct(block) = ty { block.name.clone() } else { None };
+                self.names.insert(desc_bind.bind(), block.or(name.clone()).unwrap_or_default());
                 self.resources.insert(desc_bind.bind(), kind);
                 self.collect(ty, None);
             }
@@ -100,7 +112,10 @@ impl ShaderInterface {
                 self.push_size = u32::try_from(size).expect("push constants are small");
                 self.collect(ty, None);
             }
-            Variable::SpecConstant { .. } | Variable::Input { .. } | Variable::Output { .. } => {}
+            Variable::SpecConstant { spec_id, .. } => {
+                self.constants.insert(*spec_id);
+            }
+            Variable::Input { .. } | Variable::Output { .. } => {}
         }
     }
 

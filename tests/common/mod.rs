@@ -17,10 +17,6 @@ use thinlens::scene::{self, Scene, SceneRef};
 use thinlens::settings::{Estimator, Settings};
 use thinlens::vulkan::{Device, Instance, Shader};
 
-/// Every shader, as it is and with each fault of `tests/faults.txt` that lies in its source: its
-/// name, the fault's, the SPIR-V.
-const SHADERS: &[(&str, &str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/test_shaders.rs"));
-
 /// The cache folder of the programs that tests start: what is the user's is left alone, and what
 /// drivers keep there is still at hand in the next test.
 pub const CACHE: &str = concat!(env!("CARGO_TARGET_TMPDIR"), "/cache");
@@ -49,8 +45,8 @@ impl Gpu {
 
     /// A shader of the program or of `tests/probes`.
     pub fn shader(&self, name: &'static str) -> Shader {
-        let of = |fault: &str| SHADERS.iter().find(|shader| (shader.0, shader.1) == (name, fault));
-        let (_, _, spirv) = of(self.fault).or_else(|| of("")).expect("a shader that there is");
+        let spirv = thinlens_test_shaders::spirv;
+        let spirv = spirv(name, self.fault).or_else(|| spirv(name, "")).expect("a shader that there is");
         Shader { name, spirv }
     }
 
@@ -105,7 +101,7 @@ pub fn prove(check: impl Fn(&Gpu) -> anyhow::Result<String>, faults: &[&'static 
         Err(error) => panic!("{error:#}"),
     }
     for fault in faults {
-        assert!(SHADERS.iter().any(|shader| shader.1 == *fault), "no shader has the fault {fault}");
+        assert!(thinlens_test_shaders::has_fault(fault), "no shader has the fault {fault}");
         gpu.fault = fault;
         match check(&gpu) {
             Ok(figures) => panic!("does not see the fault {fault}: {figures}"),

@@ -5,6 +5,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
 use thinlens::gpu_types::{SceneData, sampler_constant};
+use thinlens::interface::{binding, constant};
 use thinlens::passes::{BlueNoiseTile, SceneBuffers};
 use thinlens::reference::Ray;
 use thinlens::scene::SceneRef;
@@ -45,19 +46,21 @@ pub fn probe_as<In: Pod, Out: Pod>(
     let bytes = size_of::<Out>() * inputs.len();
     let output = Buffer::new(device, "probe outputs", bytes as u64, Residence::Host).expect("a buffer");
     let output = Arc::new(output);
-    let front = [Binding::Buffer(input), Binding::Buffer(Arc::clone(&output))];
     let scene =
         scene.map(|scene| SceneBuffers::new(device, &SceneData::new(scene, scene.shutter)).expect("a scene"));
-    let (mut bindings, constants) = match &scene {
-        Some(scene) => (scene.bindings(&front), scene.constants([sampler, 0])),
-        None => ((0..).zip(front).collect(), vec![sampler]),
+    let (mut bindings, mut constants) = match &scene {
+        Some(scene) => (scene.bindings(), scene.constants().to_vec()),
+        None => (Vec::new(), Vec::new()),
     };
+    constants.push(sampler);
+    bindings.push((binding::PROBE_INPUTS, Binding::Buffer(input)));
+    bindings.push((binding::PROBE_OUTPUTS, Binding::Buffer(Arc::clone(&output))));
     // Few of the functions need sample values.
     let tile = BlueNoiseTile::new(device).expect("a tile").binding();
     if shader.interface().resources.contains_key(&tile.0) {
         bindings.push(tile);
     }
-    let answers = |constants: &[u32]| {
+    let answers = |constants: &[(u32, u32)]| {
         let pipeline = ComputePipeline::new(device, shader, constants).expect("a pipeline");
         let bindings = BindingSet::new(&pipeline, &bindings).expect("bindings");
         let count = u32::try_from(inputs.len()).expect("not too many");
@@ -65,11 +68,10 @@ pub fn probe_as<In: Pod, Out: Pod>(
         output.bytes()[..bytes].to_vec()
     };
     let found = answers(&constants);
-    if scene.is_some() && constants[SceneBuffers::KEPT_CONSTANT] == 1 {
+    if let Some(kept) = constants.iter_mut().find(|constant| **constant == (constant::SCENE_IS_KEPT, 1)) {
         // That the scene is copied first may change nothing.
-        let mut others = constants.clone();
-        others[SceneBuffers::KEPT_CONSTANT] = 0;
-        let other = answers(&others);
+        kept.1 = 0;
+        let other = answers(&constants);
         assert!(found == other, "{name}: copying the scene changes what comes out");
     }
     bytemuck::allocation::pod_collect_to_vec(&found)

@@ -5,6 +5,7 @@
 
 layout(local_size_x = 64) in;
 
+#include "interface.glsl"
 #include "camera.glsl"
 
 struct In {
@@ -23,8 +24,8 @@ layout(push_constant, std430) uniform CameraPush {
     uvec2 extent;
 } push;
 
-layout(set = 0, binding = 0, std430) readonly buffer Inputs { In inputs[]; };
-layout(set = 0, binding = 1, std430) writeonly buffer Outputs { Out outputs[]; };
+layout(set = 0, binding = BINDING_PROBE_INPUTS, std430) readonly buffer Inputs { In inputs[]; };
+layout(set = 0, binding = BINDING_PROBE_OUTPUTS, std430) writeonly buffer Outputs { Out outputs[]; };
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

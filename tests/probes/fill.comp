@@ -1,11 +1,14 @@
 #version 460
+#extension GL_GOOGLE_include_directive : require
 
 // Puts a film of a test's choice into an image.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 0, std430) readonly buffer Inputs { vec4 texels[]; };
-layout(set = 0, binding = 1, rgba32f) writeonly uniform image2D film_image;
+#include "interface.glsl"
+
+layout(set = 0, binding = BINDING_PROBE_INPUTS, std430) readonly buffer Inputs { vec4 texels[]; };
+layout(set = 0, binding = BINDING_FILM_IMAGE, rgba32f) writeonly uniform image2D film_image;
 
 void main() {
     ivec2 extent = imageSize(film_image);

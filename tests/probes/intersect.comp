@@ -6,6 +6,7 @@
 
 layout(local_size_x = 64) in;
 
+#include "interface.glsl"
 #include "intersect.glsl"
 
 struct In {
@@ -21,8 +22,8 @@ struct Out {
     uint occluded;
 };
 
-layout(set = 0, binding = 0, std430) readonly buffer Inputs { In inputs[]; };
-layout(set = 0, binding = 1, std430) writeonly buffer Outputs { Out outputs[]; };
+layout(set = 0, binding = BINDING_PROBE_INPUTS, std430) readonly buffer Inputs { In inputs[]; };
+layout(set = 0, binding = BINDING_PROBE_OUTPUTS, std430) writeonly buffer Outputs { Out outputs[]; };
 
 void main() {
     keep_scene();

@@ -5,6 +5,7 @@
 
 layout(local_size_x = 64) in;
 
+#include "interface.glsl"
 #include "sampling.glsl"
 
 struct In {
@@ -19,8 +20,8 @@ struct Out {
     vec2 disk;
 };
 
-layout(set = 0, binding = 0, std430) readonly buffer Inputs { In inputs[]; };
-layout(set = 0, binding = 1, std430) writeonly buffer Outputs { Out outputs[]; };
+layout(set = 0, binding = BINDING_PROBE_INPUTS, std430) readonly buffer Inputs { In inputs[]; };
+layout(set = 0, binding = BINDING_PROBE_OUTPUTS, std430) writeonly buffer Outputs { Out outputs[]; };
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

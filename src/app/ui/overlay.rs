@@ -2,6 +2,7 @@
 
 use super::widgets::{Layout, combo, named, note_item, tooltip};
 use super::{LOGARITHMIC, MARGIN, Panel};
+use crate::interface::{BEHIND, IN_FRONT, MARK, SLICE};
 use crate::scene::Overlay;
 use crate::settings::{Settings, TOLERANCES};
 use imgui::{Condition, Ui, WindowFlags};
@@ -109,15 +110,13 @@ fn scale(settings: &Settings, overlay: Overlay) -> Scale {
             labels("lens".into(), format!("{distance:.4}"), "far away".into()),
         ),
         Overlay::Blur => (
-            &[[0.02, 0.22, 1.0], [1.0; 3], [1.0, 0.2, 0.01]],
+            &[IN_FRONT, [1.0; 3], BEHIND],
             labels(format!("{full:.0} px in front"), "sharp".into(), format!("behind {full:.0} px")),
         ),
         Overlay::FocusPeaking => {
-            (&[[0.05, 1.0, 0.1]; 2], labels(format!("blurred over {full:.2} px at most"), text(), none()))
+            (&[MARK; 2], labels(format!("blurred over {full:.2} px at most"), text(), none()))
         }
-        Overlay::FocalPlane => {
-            (&[[1.0, 0.6, 0.0]; 2], labels(format!("at a depth of {distance:.4}"), text(), none()))
-        }
+        Overlay::FocalPlane => (&[SLICE; 2], labels(format!("at a depth of {distance:.4}"), text(), none())),
     }
 }
 
