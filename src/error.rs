@@ -50,10 +50,10 @@ pub enum Error {
         /// What it was for.
         what: &'static str,
     },
-    /// A scene has more of something than there can be, however much memory there is.
+    /// A scene or picture has more of something than there can be, however much memory there is.
     #[error(
-        "{what} would take {wanted} {unit}, but can have {most} at most ({limit}); use fewer shapes or smaller \
-         images, or try another device (thinlens devices)"
+        "{what} would take {wanted} {unit}, but can have {most} at most ({limit}); {advice}, or try another device \
+         (thinlens devices)"
     )]
     Limit {
         /// What it was for.
@@ -65,7 +65,9 @@ pub enum Error {
         /// How many there can be.
         most: u64,
         /// Which limit that is.
-        limit: &'static str,
+        limit: String,
+        /// What to change.
+        advice: &'static str,
     },
     /// The device that was asked for cannot be used.
     #[error("cannot use {0}; choose another one: thinlens devices")]

@@ -4,7 +4,7 @@ use std::mem::offset_of;
 use thinlens::gpu_types::*;
 use thinlens::interface::binding;
 use thinlens::passes::{Accumulate, Geometry, Pick, Resolve, Select, Trace};
-use thinlens::vulkan::{Shader, StructLayout};
+use thinlens::vulkan::{NEEDED, Shader, StructLayout};
 
 const SHADERS: [Shader; 6] =
     [Trace::SHADER, Accumulate::SHADER, Select::SHADER, Resolve::SHADER, Pick::SHADER, Geometry::SHADER];
@@ -128,6 +128,17 @@ fn every_struct_of_the_shaders_has_its_twin() {
     }
     for (name, ..) in &twins {
         assert!(seen.iter().any(|seen| seen == name), "no shader has {name}");
+    }
+}
+
+/// Catches a device that is taken for good enough although the shaders bind more, or refused although it is.
+#[test]
+fn what_a_device_must_bind_is_what_the_shaders_bind() {
+    for (kind, needed) in NEEDED {
+        let of = |shader: &Shader| {
+            shader.interface().resources.values().filter(|resource| **resource == kind).count()
+        };
+        assert_eq!(SHADERS.iter().map(of).max(), Some(needed as usize), "{kind:?}");
     }
 }
 

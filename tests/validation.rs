@@ -147,3 +147,19 @@ fn every_scene_renders_without_a_message() {
         }
     }
 }
+
+/// Catches a picture that is too large for a list of its pixels, and of which that is not said: more than 2^25
+/// pixels are more bytes than lavapipe's shaders can bind.
+#[test]
+fn a_picture_too_large_for_the_device_is_refused_in_words() {
+    let gpu = Gpu::new();
+    let mut settings = small("suffern-boxes");
+    settings.estimator.size = [8192, 4096];
+    settings.estimator.noise_threshold = 0.02;
+    let mut renderer = gpu.renderer();
+    if let Err(error) = renderer.set(&settings) {
+        let told = error.to_string();
+        let parts = ["active pixels", "134217732 bytes", "maxStorageBufferRange", "--noise-threshold"];
+        assert!(parts.iter().all(|part| told.contains(part)), "{told}");
+    }
+}

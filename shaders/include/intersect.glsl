@@ -58,20 +58,23 @@ float intersect_box(Ray ray, vec3 inverse_direction, Box box, out vec3 normal, o
 // T. Moeller and B. Trumbore, JGT 2(1), 1997, both sides. barycentric belongs to the second and third vertex.
 float intersect_triangle(Ray ray, Triangle triangle, out vec2 barycentric) {
     vec3 h = cross(ray.direction, triangle.edge2);
-    float inverse_determinant = 1.0 / dot(triangle.edge1, h);
+    float determinant = dot(triangle.edge1, h);
+    float inverse_determinant = 1.0 / determinant;
     vec3 s = ray.origin - triangle.vertex;
     float b1 = dot(s, h) * inverse_determinant;
     vec3 q = cross(s, triangle.edge1);
     float b2 = dot(ray.direction, q) * inverse_determinant;
     float distance = dot(triangle.edge2, q) * inverse_determinant;
     barycentric = vec2(b1, b2);
-    // Written so that a NaN from a ray in the triangle's plane is a miss.
-    return b1 >= 0.0 && b2 >= 0.0 && b1 + b2 <= 1.0 && distance > 0.0 && distance < MISS ? distance : MISS;
+    // A driver may assume that there are no infinities and no NaNs: a ray in the triangle's plane is seen by the
+    // determinant.
+    return determinant != 0.0 && b1 >= 0.0 && b2 >= 0.0 && b1 + b2 <= 1.0 && distance > 0.0 && distance < MISS ? distance : MISS;
 }
 
 float intersect_plane(Ray ray, Plane plane) {
-    float distance = (plane.offset - dot(plane.normal, ray.origin)) / dot(plane.normal, ray.direction);
-    return distance > 0.0 && distance < MISS ? distance : MISS;
+    float cosine = dot(plane.normal, ray.direction);
+    float distance = (plane.offset - dot(plane.normal, ray.origin)) / cosine;
+    return cosine != 0.0 && distance > 0.0 && distance < MISS ? distance : MISS;
 }
 
 // 1 / direction with zero components replaced, so that no slab distance is 0 * infinity.

@@ -89,12 +89,12 @@ vec3 shade(Material material, Ray ray, SurfacePoint at, inout uint rays, inout b
 }
 
 // The radiance that arrives along the ray: what the surface shows, plus its mirror image, followed
-// for at most max_bounces reflections; infinite where a ray had to be given up. rays counts every ray
-// traced, shadow rays among them.
-vec3 radiance(Ray ray, uint max_bounces, inout uint rays) {
+// for at most max_bounces reflections. rays counts every ray traced, shadow rays among them. given_up: a search
+// took too long, and the radiance is of no use.
+vec3 radiance(Ray ray, uint max_bounces, inout uint rays, out bool given_up) {
     vec3 sum = vec3(0.0);
     vec3 throughput = vec3(1.0);
-    bool given_up = false;
+    given_up = false;
     uint bounce = 0u;
     do {
         ++rays;
@@ -127,7 +127,7 @@ vec3 radiance(Ray ray, uint max_bounces, inout uint rays) {
         mirrored -= 2.0 * smaller(dot(mirrored, at.normal), 0.0) * at.normal;
         ray = Ray(at.lifted, mirrored);
     } while (++bounce <= max_bounces);
-    return given_up ? vec3(uintBitsToFloat(0x7f800000u)) : sum;
+    return sum;
 }
 
 #endif

@@ -47,11 +47,12 @@ vec4 trace_batch(TracePush push, uvec2 pixel, out float moment) {
         if (SCENE_MOVES == 1u) {
             ray_time = (time_value(time_keys, push.first_sample + i) - 0.5) * aperture.shutter;
         }
-        vec3 color = radiance(ray, push.max_bounces, rays);
+        bool given_up;
+        vec3 color = radiance(ray, push.max_bounces, rays, given_up);
         if (APERTURE == APERTURE_CATS_EYE) {
             color *= opening.z;
         }
-        if (is_finite(color)) {
+        if (!given_up && is_finite(color)) {
             vec4 one = vec4(color, 1.0);
             if (HAS_MOMENTS == 1u) {
                 moment = merge_moments(batch, moment, one, 0.0);

@@ -5,8 +5,7 @@ use crate::error::{Error, Result};
 use crate::gpu_types::{SceneData, TracePush};
 use crate::interface::{SPELLED_OUT_STACK, STACK_INDEX_BITS, binding, constant};
 use crate::vulkan::{
-    Binding, BindingSet, Buffer, ComputePipeline, Device, Image, Recording, SOFTWARE, Shader, TexelBuffer,
-    shader,
+    Binding, BindingSet, Buffer, ComputePipeline, Device, Image, Recording, Shader, TexelBuffer, shader,
 };
 use bytemuck::Pod;
 use std::sync::Arc;
@@ -20,10 +19,6 @@ pub struct Trace {
 /// With more shapes in lists, materials or lights than these the scene is not copied: what would be
 /// unrolled grows too long.
 const MOST_KEPT: usize = 64;
-
-/// What a ray may take on a software device: nodes visited and shapes tried. In a tree of a million
-/// triangles some dozens are usual. Were there no limit, nor could there be a safe batch.
-const MOST_TREE_STEPS: usize = 1024;
 
 /// The stack of bvh.glsl has so many bits for the index of a record.
 const MOST_TREE_RECORDS: usize = 1 << STACK_INDEX_BITS;
@@ -56,14 +51,15 @@ impl SceneBuffers {
                 unit: "records",
                 wanted: records.len() as u64,
                 most: MOST_TREE_RECORDS as u64,
-                limit: "of thinlens itself",
+                limit: "of thinlens itself".into(),
+                advice: "use fewer shapes",
             });
         }
-        let most_steps = if device.info().kind == SOFTWARE { MOST_TREE_STEPS } else { usize::MAX };
-        let steps = count(records.len().min(most_steps));
+        let traits = device.traits();
+        let steps = count(records.len()).min(traits.max_tree_steps.unwrap_or(u32::MAX));
         let few =
             scene.material_of_shape.len().max(scene.materials.len()).max(scene.lights.len()) <= MOST_KEPT;
-        let kept = device.info().kind == SOFTWARE && few;
+        let kept = traits.keeps_scene && few;
         let bindings = vec![
             (binding::SPHERES, buffer(device, "spheres", &scene.spheres)?),
             (binding::BOXES, buffer(device, "boxes", &scene.boxes)?),

@@ -1,7 +1,7 @@
 //! The images of one picture size, and what binds them to the passes.
 
 use super::EstimatorPasses;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::passes::{Adaptive, Resolve};
 use crate::vulkan::{BindingSet, Device, Image, Recording};
 use std::sync::Arc;
@@ -36,13 +36,6 @@ impl Film {
         passes: &EstimatorPasses,
         resolve: &Resolve,
     ) -> Result<Self> {
-        let most = device.max_extent();
-        if size[0] > most || size[1] > most {
-            let [width, height] = size;
-            return Err(Error::OutOfRange(format!(
-                "size is {width}x{height}, but this device's images go to {most}x{most}"
-            )));
-        }
         let batch = Arc::new(Image::rgba32f(device, "tracing image", size)?);
         let film = Arc::new(Image::rgba32f(device, "accumulation image", size)?);
         let picture = Arc::new(Image::rgba8(device, "picture", size)?);

@@ -10,6 +10,9 @@ use std::time::Duration;
 /// How long a headless submission works: far below what desktop drivers kill a dispatch for.
 const HEADLESS_BUDGET: Duration = Duration::from_millis(100);
 
+/// Images are read back in parts of about as many bytes: the largest do not fit into a buffer.
+const READ_AT_ONCE: u64 = 1 << 26;
+
 impl Renderer {
     /// Renders until the target is reached. `on_progress` is called after every submission.
     ///
@@ -103,20 +106,31 @@ impl Renderer {
     /// Reads an image back, once `prepare` is recorded.
     fn read_image(
         &mut self,
-        choose: impl Fn(&Film) -> &Image,
+        choose: impl FnOnce(&Film) -> &Image,
         prepare: impl FnOnce(&mut Self, &mut Recording<'_>),
     ) -> Result<Vec<u8>> {
-        let size = self.film.as_ref().map_or(0, |film| choose(film).byte_len());
-        let buffer = Buffer::new(&self.device, "read-back", size, Residence::Host)?;
         let mut commands = Commands::new(&self.device)?;
         let mut recording = commands.begin()?;
         recording.barrier();
         prepare(self, &mut recording);
-        if let Some(film) = &self.film {
-            recording.copy_image(choose(film), &buffer);
-        }
         recording.submit()?;
         commands.wait()?;
-        Ok(buffer.bytes()[..usize::try_from(size).unwrap_or(0)].to_vec())
+        let Some(image) = self.film.as_ref().map(choose) else {
+            return Ok(Vec::new());
+        };
+        let [_, height] = image.extent();
+        let row = image.byte_len() / u64::from(height);
+        let rows = u32::try_from(READ_AT_ONCE / row).unwrap_or(height).clamp(1, height);
+        let buffer = Buffer::new(&self.device, "read-back", row * u64::from(rows), Residence::Staging)?;
+        let mut bytes = Vec::with_capacity(usize::try_from(image.byte_len()).unwrap_or(0));
+        for first in (0..height).step_by(rows as usize) {
+            let count = rows.min(height - first);
+            let mut recording = commands.begin()?;
+            recording.copy_rows(image, first, count, &buffer);
+            recording.submit()?;
+            commands.wait()?;
+            bytes.extend_from_slice(&buffer.bytes()[..row as usize * count as usize]);
+        }
+        Ok(bytes)
     }
 }

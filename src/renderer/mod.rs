@@ -24,7 +24,7 @@ use crate::passes::{
 };
 use crate::scene::{ApertureImage, SceneRef};
 use crate::settings::{Estimator, Settings};
-use crate::vulkan::{BindingSet, Buffer, Device, FRAMES_IN_FLIGHT, Image, Recording, Residence, SOFTWARE};
+use crate::vulkan::{BindingSet, Buffer, Device, FRAMES_IN_FLIGHT, Image, Recording, Residence};
 use depth::Seen;
 use film::Film;
 use pick::Asked;
@@ -228,16 +228,16 @@ impl Renderer {
     /// The batch that the scene's loops allow.
     fn fit_loops(&self, scene: &SceneBuffers, max_bounces: u32) -> Result<u32> {
         let steps = scene.most_loop_steps(max_bounces);
-        match schedule::largest_batch(steps) {
-            Some(batch) => Ok(batch),
-            None if self.device.info().kind != SOFTWARE => Ok(1),
-            None => Err(Error::OutOfRange(format!(
-                "the scene can take {steps} steps a sample, but software devices stop at {}: {}; use fewer of \
+        let Some(most) = self.device.traits().max_loop_steps else {
+            return Ok(MAX_BATCH);
+        };
+        schedule::largest_batch(steps, most).ok_or_else(|| {
+            Error::OutOfRange(format!(
+                "the scene can take {steps} steps a sample, but software devices stop at {most}: {}; use fewer of \
                  these, or a GPU",
-                schedule::MAX_LOOP_STEPS,
                 scene.most_steps_in_words(max_bounces)
-            ))),
-        }
+            ))
+        })
     }
 
     fn compile_passes(&self, constants: [(u32, u32); 2], estimator: &Estimator) -> Result<EstimatorPasses> {

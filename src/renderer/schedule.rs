@@ -36,14 +36,10 @@ pub fn listed_lattice(size: [u32; 2], at: [u32; 2], local: [u32; 2]) -> Lattice 
     Lattice { extent: size, origin: [at[1] * LISTED_ROW + at[0] * local[1], 0], stride: 0, pad0: 0 }
 }
 
-/// Lavapipe silently leaves every loop of an invocation once it has gone round this often, all loops
-/// counted together. A sample that goes round more often would be wrong.
-pub const MAX_LOOP_STEPS: u64 = 65_535;
-
-/// The largest batch, a power of two, that stays within [`MAX_LOOP_STEPS`] if every sample goes round
-/// `steps` times. None if not even one sample does.
-pub fn largest_batch(steps: u64) -> Option<u32> {
-    let most = u32::try_from(MAX_LOOP_STEPS / (steps + 1)).ok()?;
+/// The largest batch, a power of two, whose loops go round `most` times at most if those of every sample go round
+/// `steps` times. None if not even one sample's do.
+pub fn largest_batch(steps: u64, most: u64) -> Option<u32> {
+    let most = u32::try_from(most / (steps + 1)).ok()?;
     most.checked_ilog2().map(|power| 1 << power)
 }
 
@@ -303,10 +299,10 @@ mod tests {
     #[test]
     fn batches_stay_within_the_loop_limit() {
         for steps in [1, 2, 413, 4000, 30_000, 65_534] {
-            let batch = u64::from(largest_batch(steps).expect("one sample fits"));
-            assert!(batch * (steps + 1) <= MAX_LOOP_STEPS && 2 * batch * (steps + 1) > MAX_LOOP_STEPS);
+            let batch = u64::from(largest_batch(steps, 65_535).expect("one sample fits"));
+            assert!(batch * (steps + 1) <= 65_535 && 2 * batch * (steps + 1) > 65_535);
         }
-        assert_eq!(largest_batch(65_535), None);
+        assert_eq!(largest_batch(65_535, 65_535), None);
     }
 
     /// Catches a reach that is one short: samples would vanish between pixels.

@@ -73,13 +73,13 @@ impl Tally {
                     device,
                     "counters read-back",
                     size_of::<Counters>() as u64,
-                    Residence::Host,
+                    Residence::Staging,
                 )?,
                 active: Buffer::new(
                     device,
                     "active pixels read-back",
                     Adaptive::LIST_HEADER,
-                    Residence::Host,
+                    Residence::Staging,
                 )?,
                 pending: None,
             })

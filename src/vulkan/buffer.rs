@@ -14,9 +14,11 @@ pub enum Residence {
     Device,
     /// Where the host can read and write it.
     Host,
+    /// Likewise, and shaders cannot.
+    Staging,
 }
 
-/// A storage buffer with its memory.
+/// A buffer with its memory.
 pub struct Buffer {
     pub(super) raw: vk::Buffer,
     allocation: Option<Allocation>,
@@ -34,15 +36,27 @@ impl Buffer {
     /// A buffer of at least `size` bytes, its contents undefined.
     ///
     /// # Errors
-    /// [`Error::Memory`], or what Vulkan says.
+    /// [`Error::Limit`] where the device has none as large, [`Error::Memory`], or what Vulkan says.
     pub fn new(device: &Arc<Device>, name: &'static str, size: u64, residence: Residence) -> Result<Self> {
+        let mut usage = vk::BufferUsageFlags::empty();
+        if residence != Residence::Staging {
+            device.limits.check_storage(name, size)?;
+            usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        }
+        Self::with_usage(device, name, size, residence, usage)
+    }
+
+    fn with_usage(
+        device: &Arc<Device>,
+        name: &'static str,
+        size: u64,
+        residence: Residence,
+        usage: vk::BufferUsageFlags,
+    ) -> Result<Self> {
         let size = size.max(16); // Vulkan has no empty buffers, and a scene may have no triangles.
-        let info = vk::BufferCreateInfo::default().size(size).usage(
-            vk::BufferUsageFlags::STORAGE_BUFFER
-                | vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER
-                | vk::BufferUsageFlags::TRANSFER_SRC
-                | vk::BufferUsageFlags::TRANSFER_DST,
-        );
+        device.limits.check_buffer(name, size)?;
+        let copies = vk::BufferUsageFlags::TRANSFER_SRC | vk::BufferUsageFlags::TRANSFER_DST;
+        let info = vk::BufferCreateInfo::default().size(size).usage(usage | copies);
         // SAFETY: the device is valid; the handle goes into its guard before anything else.
         let raw = check("creating a buffer", unsafe { device.raw.create_buffer(&info, None) })?;
         let mut buffer = Self { raw, allocation: None, device: Arc::clone(device) };
@@ -50,7 +64,7 @@ impl Buffer {
         let requirements = unsafe { device.raw.get_buffer_memory_requirements(raw) };
         let location = match residence {
             Residence::Device => MemoryLocation::GpuOnly,
-            Residence::Host => MemoryLocation::GpuToCpu,
+            Residence::Host | Residence::Staging => MemoryLocation::GpuToCpu,
         };
         let allocation = allocate(device, name, requirements, location, true)?;
         // SAFETY: the memory was allocated for this buffer's requirements and is bound once.
@@ -70,18 +84,23 @@ impl Buffer {
         name: &'static str,
         data: &[T],
     ) -> Result<Self> {
-        let bytes: &[u8] = bytemuck::cast_slice(data);
-        let buffer = Self::new(device, name, bytes.len() as u64, Residence::Device)?;
-        if !bytes.is_empty() {
-            let mut staging = Self::new(device, "staging", bytes.len() as u64, Residence::Host)?;
-            staging.write(bytes);
-            let mut commands = Commands::new(device)?;
-            let mut recording = commands.begin()?;
-            recording.copy_buffer(&staging, &buffer, bytes.len() as u64);
-            recording.submit()?;
-            commands.wait()?;
-        }
+        let buffer = Self::new(device, name, size_of_val(data) as u64, Residence::Device)?;
+        buffer.fill(bytemuck::cast_slice(data))?;
         Ok(buffer)
+    }
+
+    /// Copies `bytes` to the start of a buffer on the device that is not in use.
+    fn fill(&self, bytes: &[u8]) -> Result<()> {
+        if bytes.is_empty() {
+            return Ok(());
+        }
+        let mut staging = Self::new(&self.device, "staging", bytes.len() as u64, Residence::Staging)?;
+        staging.write(bytes);
+        let mut commands = Commands::new(&self.device)?;
+        let mut recording = commands.begin()?;
+        recording.copy_buffer(&staging, self, bytes.len() as u64);
+        recording.submit()?;
+        commands.wait()
     }
 
     /// Writes the start of a buffer that the host sees and the device is not using.
@@ -108,8 +127,11 @@ impl TexelBuffer {
         name: &'static str,
         data: &[T],
     ) -> Result<Self> {
-        check_texels(name, size_of_val(data), device.max_texels())?;
-        let buffer = Buffer::upload(device, name, data)?;
+        let size = size_of_val(data) as u64;
+        device.limits.check_texels(name, size)?;
+        let usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER;
+        let buffer = Buffer::with_usage(device, name, size, Residence::Device, usage)?;
+        buffer.fill(bytemuck::cast_slice(data))?;
         let info = vk::BufferViewCreateInfo::default()
             .buffer(buffer.raw)
             .format(vk::Format::R32G32B32A32_UINT)
@@ -118,15 +140,6 @@ impl TexelBuffer {
         let view = unsafe { device.raw.create_buffer_view(&info, None) };
         Ok(Self { view: check("creating a buffer view", view)?, buffer })
     }
-}
-
-/// Whether a device that reads so many texels at most can read as many bytes.
-fn check_texels(what: &'static str, bytes: usize, most: u32) -> Result<()> {
-    let (wanted, most) = (bytes.div_ceil(16) as u64, u64::from(most));
-    if wanted <= most {
-        return Ok(());
-    }
-    Err(Error::Limit { what, unit: "texels", wanted, most, limit: "maxTexelBufferElements of the device" })
 }
 
 impl Drop for TexelBuffer {
@@ -169,20 +182,5 @@ pub(super) fn release(device: &Device, allocation: Option<Allocation>) {
         && let Err(error) = device.allocator().free(allocation)
     {
         log::error!("freeing device memory: {error}");
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Catches a limit of the device that is told as a lack of memory, or that is off by a texel.
-    #[test]
-    fn a_limit_of_texels_is_told_as_what_it_is() {
-        assert!(check_texels("tree", 16 * 65_536, 65_536).is_ok());
-        let error = check_texels("tree", 16 * 65_536 + 1, 65_536).expect_err("one too many").to_string();
-        for part in ["tree", "65537 texels", "65536", "maxTexelBufferElements"] {
-            assert!(error.contains(part), "{error}");
-        }
     }
 }

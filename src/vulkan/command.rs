@@ -151,7 +151,10 @@ impl Recording<'_> {
     pub fn barrier(&mut self) {
         let stages = vk::PipelineStageFlags2::COMPUTE_SHADER | vk::PipelineStageFlags2::ALL_TRANSFER;
         let writes = vk::AccessFlags2::SHADER_STORAGE_WRITE | vk::AccessFlags2::TRANSFER_WRITE;
-        let reads = vk::AccessFlags2::SHADER_STORAGE_READ | vk::AccessFlags2::TRANSFER_READ;
+        // Texel buffers are read as samplers read.
+        let reads = vk::AccessFlags2::SHADER_STORAGE_READ
+            | vk::AccessFlags2::SHADER_SAMPLED_READ
+            | vk::AccessFlags2::TRANSFER_READ;
         let barrier = [vk::MemoryBarrier2::default()
             .src_stage_mask(stages)
             .src_access_mask(writes)
@@ -224,12 +227,17 @@ impl Recording<'_> {
 
     /// Copies an image's pixels to the start of a buffer, row by row without padding.
     pub fn copy_image(&mut self, from: &Image, to: &Buffer) {
-        let [width, height] = from.extent();
-        let region = [vk::BufferImageCopy::default().image_subresource(LAYER).image_extent(vk::Extent3D {
-            width,
-            height,
-            depth: 1,
-        })];
+        self.copy_rows(from, 0, from.extent()[1], to);
+    }
+
+    /// Likewise, `count` rows of pixels from the row `first` on.
+    pub fn copy_rows(&mut self, from: &Image, first: u32, count: u32, to: &Buffer) {
+        let [width, height] = [from.extent()[0], count];
+        let offset = vk::Offset3D { x: 0, y: i32::try_from(first).unwrap_or(i32::MAX), z: 0 };
+        let region = [vk::BufferImageCopy::default()
+            .image_subresource(LAYER)
+            .image_offset(offset)
+            .image_extent(vk::Extent3D { width, height, depth: 1 })];
         // SAFETY: recording is under way, the image is in GENERAL, and callers give a buffer of at
         // least `from.byte_len()` bytes.
         unsafe {

@@ -1,5 +1,6 @@
 //! Choosing a device, and what belongs to it: its queue and its allocator.
 
+use super::limits::{Limits, Traits, why_too_small};
 use super::pipeline_cache::{PipelineCache, user_cache_folder};
 use super::swapchain::Surface;
 use super::{Instance, check, loader_changes, loader_stays};
@@ -11,12 +12,8 @@ use std::mem::ManuallyDrop;
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
-/// How many storage buffers the trace pass binds. Vulkan promises four; every known driver of
-/// Vulkan 1.3 has more.
-const MOST_STORAGE_BUFFERS: u32 = 9;
-
 /// The kind of a device that runs on the CPU.
-pub const SOFTWARE: &str = "software";
+const SOFTWARE: &str = "software";
 
 /// A device of the system, usable or not.
 #[derive(Debug, Clone)]
@@ -50,8 +47,8 @@ pub struct Device {
     allocator: ManuallyDrop<Arc<Mutex<Allocator>>>,
     cache: OnceLock<PipelineCache>,
     info: DeviceInfo,
-    max_extent: u32,
-    max_texels: u32,
+    pub(super) limits: Limits,
+    traits: Traits,
     pub(super) instance: Arc<Instance>,
 }
 
@@ -118,9 +115,8 @@ impl Instance {
             info.unusable = Some(format!("Vulkan {major}.{minor}, needs 1.3"));
             return Ok(info);
         }
-        if properties.limits.max_per_stage_descriptor_storage_buffers < MOST_STORAGE_BUFFERS {
-            info.unusable =
-                Some(format!("a shader can bind fewer than {MOST_STORAGE_BUFFERS} storage buffers"));
+        if let Some(why) = why_too_small(&properties.limits) {
+            info.unusable = Some(why);
             return Ok(info);
         }
         match self.queue_family(raw, surface)? {
@@ -165,8 +161,22 @@ impl Device {
         wanted: Option<&str>,
         surface: Option<&Surface>,
     ) -> Result<Arc<Self>> {
+        Self::open_as(instance, wanted, surface, None)
+    }
+
+    /// Likewise, to be used in this way instead of its own: so a software device can run what else only a GPU runs.
+    ///
+    /// # Errors
+    /// Likewise.
+    pub fn open_as(
+        instance: &Arc<Instance>,
+        wanted: Option<&str>,
+        surface: Option<&Surface>,
+        traits: Option<Traits>,
+    ) -> Result<Arc<Self>> {
         let devices = instance.devices(surface)?;
         let info = choose(&devices, wanted)?;
+        let own = if info.kind == SOFTWARE { Traits::SOFTWARE } else { Traits::GPU };
         log::info!("device {}: {} ({})", info.index, info.name, info.driver);
 
         let has = extensions(instance, info.raw)?;
@@ -231,8 +241,8 @@ impl Device {
             timestamp_period: if timestamps { limits.timestamp_period } else { 0.0 },
             allocator: ManuallyDrop::new(Arc::new(Mutex::new(allocator))),
             cache: OnceLock::new(),
-            max_extent: limits.max_image_dimension2_d,
-            max_texels: limits.max_texel_buffer_elements,
+            limits: Limits::new(&instance.raw, info.raw),
+            traits: traits.unwrap_or(own),
             info: info.clone(),
             instance: Arc::clone(instance),
             raw,
@@ -273,14 +283,9 @@ impl Device {
         &self.instance
     }
 
-    /// The largest width and height of an image, in pixels.
-    pub fn max_extent(&self) -> u32 {
-        self.max_extent
-    }
-
-    /// The largest number of texels of a buffer.
-    pub(super) fn max_texels(&self) -> u32 {
-        self.max_texels
+    /// How it is used.
+    pub fn traits(&self) -> Traits {
+        self.traits
     }
 
     /// Waits until the device has nothing to do.

@@ -59,6 +59,7 @@ impl Image {
         format: vk::Format,
         bytes_per_pixel: u64,
     ) -> Result<Self> {
+        device.limits.check_image(name, extent)?;
         let [width, height] = extent;
         let info = vk::ImageCreateInfo::default()
             .image_type(vk::ImageType::TYPE_2D)

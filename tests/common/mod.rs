@@ -15,11 +15,16 @@ use thinlens::reference::{Reference, intersect};
 use thinlens::renderer::Renderer;
 use thinlens::scene::{self, Scene, SceneRef};
 use thinlens::settings::{Estimator, Settings};
-use thinlens::vulkan::{Device, Instance, Shader};
+use thinlens::vulkan::{Device, Instance, Shader, Traits};
 
 /// The cache folder of the programs that tests start: what is the user's is left alone, and what
 /// drivers keep there is still at hand in the next test.
 pub const CACHE: &str = concat!(env!("CARGO_TARGET_TMPDIR"), "/cache");
+
+/// Whether these are the tests of `as_gpu.rs`, which run what else only a GPU runs.
+pub fn as_gpu() -> bool {
+    env!("CARGO_CRATE_NAME") == "as_gpu"
+}
 
 /// A device under validation, and shaders for it. A test that leaves a message behind fails.
 pub struct Gpu {
@@ -35,7 +40,8 @@ impl Gpu {
     pub fn new() -> Self {
         let instance = Instance::new(true, None).expect("a Vulkan loader and the validation layer");
         assert!(instance.watches_synchronization(), "this validation layer sees no missing barrier");
-        let device = Device::open(&instance, None, None).expect("a Vulkan 1.3 device");
+        let traits = as_gpu().then_some(Traits::GPU);
+        let device = Device::open_as(&instance, None, None, traits).expect("a Vulkan 1.3 device");
         Self { device: Some(device), instance, expected: Vec::new(), fault: "" }
     }
 

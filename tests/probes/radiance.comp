@@ -32,7 +32,8 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i < inputs.length()) {
         uint rays = 0u;
-        vec3 sum = radiance(Ray(inputs[i].origin, inputs[i].direction), push.max_bounces, rays);
+        bool given_up;
+        vec3 sum = radiance(Ray(inputs[i].origin, inputs[i].direction), push.max_bounces, rays, given_up);
         outputs[i] = Out(sum, rays);
     }
 }

@@ -1,0 +1,178 @@
+//! What a device can hold and how it wants to be used. Whatever is made on a device is checked here first, for
+//! beyond its limits Vulkan promises nothing: specification of Vulkan 1.3, chapter "Limits".
+
+use super::ResourceKind;
+use crate::error::{Error, Result};
+use ash::vk;
+
+/// How many of each kind of resource the shaders bind at most.
+pub const NEEDED: [(ResourceKind, u32); 3] =
+    [(ResourceKind::Buffer, 12), (ResourceKind::Image, 4), (ResourceKind::Texels, 5)];
+
+/// Lavapipe silently leaves every loop of an invocation once it has gone round this often, all loops
+/// counted together. A sample that goes round more often would be wrong.
+const SOFTWARE_LOOP_STEPS: u64 = 65_535;
+
+/// How a device wants to be used.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Traits {
+    /// Whether an invocation copies a small scene to variables before it starts. A software device loads from a
+    /// buffer lane by lane inside loops; a GPU would run out of registers.
+    pub keeps_scene: bool,
+    /// How often the loops of an invocation may go round, all counted together, if there is a limit.
+    pub max_loop_steps: Option<u64>,
+    /// The most steps that a ray may take in a tree of shapes, if there is a limit.
+    pub max_tree_steps: Option<u32>,
+}
+
+impl Traits {
+    /// Of a device that runs on the CPU. In a tree of a million triangles a ray takes some dozens of steps; with no
+    /// limit to them, there would be none to how often the loops go round.
+    pub const SOFTWARE: Self =
+        Self { keeps_scene: true, max_loop_steps: Some(SOFTWARE_LOOP_STEPS), max_tree_steps: Some(1024) };
+    /// Of a GPU.
+    pub const GPU: Self = Self { keeps_scene: false, max_loop_steps: None, max_tree_steps: None };
+}
+
+/// What a device can hold.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Limits {
+    image_extent: u32,
+    storage_bytes: u32,
+    texels: u32,
+    buffer_bytes: u64,
+}
+
+impl Limits {
+    pub(super) fn new(instance: &ash::Instance, device: vk::PhysicalDevice) -> Self {
+        let mut maintenance = vk::PhysicalDeviceMaintenance4Properties::default();
+        let mut properties = vk::PhysicalDeviceProperties2::default().push_next(&mut maintenance);
+        // SAFETY: the device is of this instance; the structures chain to live locals.
+        unsafe { instance.get_physical_device_properties2(device, &mut properties) };
+        let limits = properties.properties.limits;
+        Self {
+            image_extent: limits.max_image_dimension2_d,
+            storage_bytes: limits.max_storage_buffer_range,
+            texels: limits.max_texel_buffer_elements,
+            buffer_bytes: maintenance.max_buffer_size,
+        }
+    }
+
+    /// # Errors
+    /// [`Error::Limit`] where the device has no images as wide or high.
+    pub(super) fn check_image(&self, what: &'static str, extent: [u32; 2]) -> Result<()> {
+        let limit = Limit { unit: "pixels either way", name: "maxImageDimension2D", advice: PICTURE };
+        limit.check(what, extent[0].max(extent[1]).into(), self.image_extent.into())
+    }
+
+    /// # Errors
+    /// [`Error::Limit`] where the device has no buffers as large.
+    pub(super) fn check_buffer(&self, what: &'static str, bytes: u64) -> Result<()> {
+        Limit { unit: "bytes", name: "maxBufferSize", advice: BUFFER }.check(what, bytes, self.buffer_bytes)
+    }
+
+    /// # Errors
+    /// [`Error::Limit`] where a shader cannot bind as much as a storage buffer.
+    pub(super) fn check_storage(&self, what: &'static str, bytes: u64) -> Result<()> {
+        let limit = Limit { unit: "bytes", name: "maxStorageBufferRange", advice: BUFFER };
+        limit.check(what, bytes, self.storage_bytes.into())
+    }
+
+    /// # Errors
+    /// [`Error::Limit`] where a shader cannot read as many bytes, in texels of 16.
+    pub(super) fn check_texels(&self, what: &'static str, bytes: u64) -> Result<()> {
+        let limit = Limit { unit: "texels", name: "maxTexelBufferElements", advice: SCENE };
+        limit.check(what, bytes.div_ceil(16), self.texels.into())
+    }
+}
+
+const PICTURE: &str = "use a smaller --size";
+const SCENE: &str = "use fewer shapes or smaller images";
+const BUFFER: &str = "use a smaller --size, or leave out --noise-threshold and the overlay of the error";
+
+/// A limit of devices.
+struct Limit {
+    unit: &'static str,
+    /// Its name in the specification.
+    name: &'static str,
+    advice: &'static str,
+}
+
+impl Limit {
+    fn check(self, what: &'static str, wanted: u64, most: u64) -> Result<()> {
+        let Self { unit, name, advice } = self;
+        if wanted <= most {
+            return Ok(());
+        }
+        Err(Error::Limit { what, unit, wanted, most, limit: format!("{name} of the device"), advice })
+    }
+}
+
+/// Why a device whose limits are these cannot run the shaders.
+pub(super) fn why_too_small(limits: &vk::PhysicalDeviceLimits) -> Option<String> {
+    NEEDED.into_iter().find_map(|(kind, needed)| {
+        let (most, what) = match kind {
+            ResourceKind::Buffer => (limits.max_per_stage_descriptor_storage_buffers, "storage buffers"),
+            ResourceKind::Image => (limits.max_per_stage_descriptor_storage_images, "storage images"),
+            ResourceKind::Texels => (limits.max_per_stage_descriptor_sampled_images, "texel buffers"),
+        };
+        (most < needed).then(|| format!("a shader can bind {most} {what}, needs {needed}"))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SMALL: Limits =
+        Limits { image_extent: 4096, storage_bytes: 1 << 27, texels: 65_536, buffer_bytes: 1 << 30 };
+
+    fn words(result: Result<()>) -> String {
+        result.expect_err("beyond the limit").to_string()
+    }
+
+    /// Catches a limit that is told as a lack of memory, or that is off by one.
+    #[test]
+    fn limits_are_told_as_what_they_are() {
+        assert!(SMALL.check_texels("the tree", 16 * 65_536).is_ok());
+        assert!(SMALL.check_image("the picture", [4096, 4096]).is_ok());
+        assert!(SMALL.check_storage("the list", 1 << 27).is_ok());
+        assert!(SMALL.check_buffer("the buffer", 1 << 30).is_ok());
+        for (told, parts) in [
+            (
+                words(SMALL.check_texels("the tree", 16 * 65_536 + 1)),
+                ["65537 texels", "65536", "maxTexelBufferElements"],
+            ),
+            (
+                words(SMALL.check_image("the picture", [1, 4097])),
+                ["4097 pixels", "4096", "maxImageDimension2D"],
+            ),
+            (
+                words(SMALL.check_storage("the list", (1 << 27) + 4)),
+                ["134217732 bytes", "134217728", "maxStorageBufferRange"],
+            ),
+            (
+                words(SMALL.check_buffer("the buffer", (1 << 30) + 1)),
+                ["1073741825 bytes", "1073741824", "maxBufferSize"],
+            ),
+        ] {
+            for part in parts {
+                assert!(told.contains(part), "{told}");
+            }
+        }
+    }
+
+    /// Catches a device that is taken although it cannot bind what the shaders need.
+    #[test]
+    fn a_device_that_binds_too_little_is_named() {
+        let mut limits = vk::PhysicalDeviceLimits {
+            max_per_stage_descriptor_storage_buffers: 12,
+            max_per_stage_descriptor_storage_images: 4,
+            max_per_stage_descriptor_sampled_images: 16,
+            ..Default::default()
+        };
+        assert_eq!(why_too_small(&limits), None);
+        limits.max_per_stage_descriptor_storage_buffers = 11;
+        assert!(why_too_small(&limits).is_some_and(|why| why.contains("11 storage buffers, needs 12")));
+    }
+}

@@ -1,0 +1,15 @@
+//! Tests that run once more on a device that is used as GPUs are: the scene is not copied to variables, and neither
+//! loops nor rays are cut short.
+
+#[path = "adaptive.rs"]
+mod adaptive;
+#[path = "agreement.rs"]
+mod agreement;
+#[path = "film.rs"]
+mod film;
+#[path = "mesh.rs"]
+mod mesh;
+#[path = "motion.rs"]
+mod motion;
+#[path = "surfaces.rs"]
+mod surfaces;
