@@ -1,5 +1,6 @@
 //! Tests that run once more on a device that is used as GPUs are: the scene is not copied to variables, and neither
 //! loops nor rays are cut short.
+#![allow(clippy::duplicate_mod, reason = "each test file declares what the tests share")]
 
 #[path = "adaptive.rs"]
 mod adaptive;

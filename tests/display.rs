@@ -57,8 +57,7 @@ fn x11_is_used_where_no_compositor_answers() {
         let shown =
             lines.by_ref().inspect(|line| seen.push(line.clone())).any(|line| line.contains("shown 1/1"));
         assert!(shown, "{what}: no window: {seen:#?}");
-        let sent = Command::new("kill").arg(viewer.0.id().to_string()).status();
-        assert!(sent.expect("kill").success());
+        common::send_signal("TERM", &viewer.0.id().to_string());
         let status = viewer.0.wait().expect("a process");
         assert_eq!((status.code(), status.signal()), (Some(143), None), "{what}");
         assert!(!folder.join("thinlens.png").exists(), "{what}: a file in place of the window");

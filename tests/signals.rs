@@ -50,8 +50,7 @@ fn parts(folder: &Path) -> usize {
 }
 
 fn send(signal: &str, child: &Child) {
-    let sent = Command::new("kill").args([&format!("-{signal}"), &child.id().to_string()]).status();
-    assert!(sent.expect("kill").success());
+    common::send_signal(signal, &child.id().to_string());
 }
 
 fn status_of(mut child: Killed) -> Option<i32> {
@@ -137,7 +136,7 @@ fn the_terminal_is_left_as_it_was() {
     until("a bar", || typed().is_ok_and(|typed| typed.contains("samples per pixel")));
     let part = names(folder).into_iter().find(|name| name.ends_with(".part")).expect("a part");
     let id = part.split('-').nth(1).expect("its process");
-    assert!(Command::new("kill").args(["-INT", id]).status().expect("kill").success());
+    common::send_signal("INT", id);
     assert_eq!(status_of(child), Some(130));
     let typed = typed().expect("what was on the terminal");
     let end = typed.rsplit("samples per pixel").next().expect("an end");

@@ -203,6 +203,12 @@ pub fn bits(film: &[[f32; 4]]) -> Vec<[u32; 4]> {
     film.iter().map(|texel| texel.map(f32::to_bits)).collect()
 }
 
+/// Sends a signal. The shell's own `kill` is wherever a shell is.
+pub fn send_signal(signal: &str, process: &str) {
+    let sent = Command::new("sh").args(["-c", "kill -s \"$0\" \"$1\"", signal, process]).status();
+    assert!(sent.expect("sh").success(), "no {signal} for {process}");
+}
+
 /// Kills its process with the test.
 pub struct Killed(pub Child);
 
