@@ -1,6 +1,6 @@
 //! Compiles the program's compute shaders, `shaders/*.comp`, to SPIR-V in `OUT_DIR`, where
-//! `src/vulkan/pipeline.rs` embeds them. Shaders include the files of `shaders/include`, and
-//! `interface.glsl`, which is made of `src/interface.rs`.
+//! `src/vulkan/pipeline.rs` embeds them. Shaders include files by their paths in `shaders`, and two that are made of
+//! `src/interface.rs`: `interface.glsl` has its numbers, and `kinds.glsl` includes the file of every kind of shape.
 //!
 //! The build script of `tests/shaders` uses this one to compile what only tests and benches need.
 
@@ -21,6 +21,7 @@ mod interface;
 pub struct Sources {
     root: PathBuf,
     interface: String,
+    kinds: String,
 }
 
 /// A compiled shader.
@@ -67,7 +68,7 @@ impl Sources {
         for file in ["build.rs", "src/interface.rs", "shaders"] {
             println!("cargo::rerun-if-changed={}", root.join(file).display());
         }
-        Self { root: root.to_owned(), interface: interface_glsl() }
+        Self { root: root.to_owned(), interface: interface_glsl(), kinds: kinds_glsl() }
     }
 
     /// The compute shaders of a folder, in the order of their names.
@@ -127,10 +128,10 @@ impl IncludeHandler for Includes<'_> {
         _includer: &str,
         _depth: usize,
     ) -> Option<IncludeResult> {
-        let text = if name == "interface.glsl" {
-            self.sources.interface.clone()
-        } else {
-            std::fs::read_to_string(self.sources.root.join("shaders/include").join(name)).ok()?
+        let text = match name {
+            "interface.glsl" => self.sources.interface.clone(),
+            "kinds.glsl" => self.sources.kinds.clone(),
+            file => std::fs::read_to_string(self.sources.root.join("shaders").join(file)).ok()?,
         };
         self.files.push(name.to_owned());
         Some(IncludeResult { data: (self.edit)(name, text), name: name.to_owned() })
@@ -156,6 +157,45 @@ fn interface_glsl() -> String {
         }
     }
     glsl + "#endif\n"
+}
+
+/// Includes the file of every kind of shape, and says what the shaders need for each. `KIND_BEGIN` and `KIND_END` are
+/// the range of a kind in the list.
+fn kinds_glsl() -> String {
+    use interface::shape::{FIRST_UNBOUNDED, NAMES};
+    let mut glsl = String::from("#ifndef KINDS_GLSL\n#define KINDS_GLSL\n");
+    let mut begin = "0u".to_owned();
+    let mut ends = Vec::new();
+    for (number, name) in NAMES.iter().enumerate() {
+        let file = name.to_lowercase();
+        let end = format!("{name}_END");
+        write!(
+            glsl,
+            "#include \"shape/{file}.glsl\"\n\
+             layout(constant_id = ID_SHAPE_END + {number}u) const uint {end} = 0u;\n\
+             const uint {name}_BEGIN = {begin};\n"
+        )
+        .expect("a string grows");
+        begin.clone_from(&end);
+        ends.push(end);
+    }
+    let (bounded, unbounded) = NAMES.split_at(FIRST_UNBOUNDED as usize);
+    for (name, kinds) in [("BOUNDED_", bounded), ("UNBOUNDED_", unbounded), ("", NAMES)] {
+        let each: String = kinds.iter().map(|kind| format!(" DO({kind}, {})", kind.to_lowercase())).collect();
+        writeln!(glsl, "#define FOR_EACH_{name}KIND(DO){each}").expect("a string grows");
+    }
+    let bits = |count: usize| (1_u32 << count) - 1;
+    writeln!(
+        glsl,
+        "const uint BOUNDED_KINDS = {}u;\nconst uint ALL_KINDS = {}u;\nconst uint BOUNDED_SHAPES_END = {};\n\
+         const uint SHAPES_END = {};\n#endif",
+        bits(bounded.len()),
+        bits(NAMES.len()),
+        ends[bounded.len() - 1],
+        ends[NAMES.len() - 1]
+    )
+    .expect("a string grows");
+    glsl
 }
 
 /// glslang names the file it was given "0"; cargo shows what a build script says as an error only

@@ -22,13 +22,7 @@ pub fn saved(settings: &Settings) {
     std::fs::write("saved.toml", text).expect("a writable folder");
     let scene = scene::load("saved.toml").unwrap_or_else(|error| panic!("a saved scene is refused: {error}"));
     let shapes = |scene: &scene::Scene| {
-        [
-            scene.spheres.len(),
-            scene.boxes.len(),
-            scene.triangles.len(),
-            scene.planes.len(),
-            scene.lights.len(),
-        ]
+        [scene.shapes.len(), scene.of_kind::<scene::Triangle>().count(), scene.lights.len()]
     };
     assert_eq!(shapes(&scene), shapes(&settings.estimator.scene), "a saved scene has other shapes");
     let again = Settings::of_scene(SceneRef::new(scene));
@@ -59,8 +53,12 @@ pub fn on_device(settings: &Settings) -> u32 {
     let (scene, shutter) = (&settings.estimator.scene, settings.estimator.shutter);
     let data = SceneData::new(scene, shutter);
     assert!(data.environment.reach.is_finite(), "the scene reaches {}", data.environment.reach);
-    let tree = data.tree.or_else(|| SceneData::with_tree(scene, shutter, true).tree);
-    let bounded = scene.spheres.len() + scene.boxes.len() + scene.triangles.len();
-    assert_eq!(tree.is_some(), bounded > 0, "a tree of {bounded} shapes");
-    tree.map_or(0, |tree| tree.depth)
+    let depth = if data.tree_depth > 0 {
+        data.tree_depth
+    } else {
+        SceneData::with_tree(scene, shutter, true).tree_depth
+    };
+    let bounded = scene.shapes.iter().filter(|of| of.shape.bounds().is_some()).count();
+    assert_eq!(depth > 0, bounded > 0, "a tree of {bounded} shapes");
+    depth
 }

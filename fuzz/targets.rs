@@ -11,7 +11,7 @@ use std::path::Path;
 use thinlens::cli::{Cli, Command, SettingsArgs, ViewArgs};
 use thinlens::error::{Error, Result};
 use thinlens::output::Origin;
-use thinlens::scene::{self, ApertureImage, SceneRef};
+use thinlens::scene::{self, ApertureImage, Box, Plane, SceneRef, Sphere, Triangle};
 use thinlens::settings::Settings;
 
 /// Something that reads what others made.
@@ -112,7 +112,12 @@ fn accepted(settings: &Settings, save: bool) -> String {
     }
     let (estimator, scene) = (&settings.estimator, &*settings.estimator.scene);
     let many = |count: usize| count.ilog2().min(7);
-    let shapes = [scene.spheres.len(), scene.boxes.len(), scene.triangles.len(), scene.planes.len()];
+    let shapes = [
+        scene.of_kind::<Sphere>().count(),
+        scene.of_kind::<Box>().count(),
+        scene.of_kind::<Triangle>().count(),
+        scene.of_kind::<Plane>().count(),
+    ];
     format!(
         "{:?} {:?} {:?} {} {:?} {:?} {:?}",
         shapes.map(|count| many(count + 1)),

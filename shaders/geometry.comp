@@ -9,8 +9,9 @@
 
 layout(local_size_x = GROUP_SIZE, local_size_y = GROUP_SIZE) in;
 
-#include "intersect.glsl"
-#include "film.glsl"
+#include "camera/thin_lens.glsl"
+#include "core/film.glsl"
+#include "scene/intersect.glsl"
 
 layout(set = 0, binding = BINDING_DEPTH_IMAGE, r32f) writeonly uniform image2D depth_image;
 

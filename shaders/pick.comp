@@ -8,8 +8,9 @@
 
 layout(local_size_x = 8) in;
 
-#include "intersect.glsl"
-#include "aperture.glsl"
+#include "aperture/aperture.glsl"
+#include "camera/thin_lens.glsl"
+#include "scene/intersect.glsl"
 
 struct PickedRay {
     vec3 origin;

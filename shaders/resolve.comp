@@ -10,9 +10,9 @@
 
 layout(local_size_x = GROUP_SIZE, local_size_y = GROUP_SIZE) in;
 
-#include "adaptive.glsl"
-#include "color.glsl"
-#include "overlay.glsl"
+#include "core/adaptive.glsl"
+#include "core/color.glsl"
+#include "core/overlay.glsl"
 
 layout(set = 0, binding = BINDING_FILM_IMAGE, rgba32f) readonly uniform image2D film_image;
 layout(set = 0, binding = BINDING_PICTURE_IMAGE, rgba8) writeonly uniform image2D picture_image;

@@ -9,7 +9,7 @@
 
 layout(local_size_x = GROUP_SIZE, local_size_y = GROUP_SIZE) in;
 
-#include "trace_batch.glsl"
+#include "core/trace_batch.glsl"
 
 layout(set = 0, binding = BINDING_TRACED_IMAGE, rgba32f) writeonly uniform image2D traced_image;
 layout(set = 0, binding = BINDING_TRACED_MOMENTS, r32f) writeonly uniform image2D traced_moments;

@@ -40,30 +40,18 @@ pub mod binding {
         COUNTERS,
         /// What the pick pass finds.
         PICKED_RAYS,
-        /// The shapes that are in lists.
-        SPHERES,
-        /// Likewise.
-        BOXES,
-        /// Likewise.
-        TRIANGLES,
-        /// Likewise.
-        PLANES,
-        /// The index of each listed shape's material.
-        MATERIAL_OF_SHAPE,
-        /// The velocity of each listed shape except planes.
-        VELOCITIES,
         /// The materials.
         MATERIALS,
         /// The lights.
         LIGHTS,
         /// The sky, and what belongs to the scene as a whole.
         ENVIRONMENT,
-        /// The nodes and shapes of the tree.
-        TREE_RECORDS,
+        /// The nodes and shapes of the tree, then the shapes in the list.
+        RECORDS,
         /// The corner normals of the tree's shapes.
-        TREE_NORMALS,
-        /// The velocities of the tree's shapes.
-        TREE_VELOCITIES,
+        CORNER_NORMALS,
+        /// The velocities of the shapes.
+        VELOCITIES,
         /// The aperture.
         APERTURE,
         /// The running sums of the aperture's image.
@@ -88,14 +76,6 @@ pub mod constant {
         HAS_HOLES,
         /// Whether an overlay is shown.
         HAS_OVERLAY,
-        /// The number of spheres in the list.
-        SPHERE_COUNT,
-        /// The number of boxes in the list.
-        BOX_COUNT,
-        /// The number of triangles in the list.
-        TRIANGLE_COUNT,
-        /// The number of planes.
-        PLANE_COUNT,
         /// The number of lights.
         LIGHT_COUNT,
         /// The number of lights that cast shadows.
@@ -104,18 +84,24 @@ pub mod constant {
         MATERIAL_COUNT,
         /// Whether invocations copy the scene to variables before they start.
         SCENE_IS_KEPT,
+        /// The record of the list's first shape.
+        LIST_BEGIN,
+        /// The kinds of shapes in the scene: a bit for each [`shape`](super::shape).
+        SHAPE_KINDS,
+        /// Whether any triangle has normals at its corners.
+        HAS_CORNER_NORMALS,
         /// Whether any shape moves.
         SCENE_MOVES,
         /// Whether the device's origin is not the scene's own.
         SCENE_IS_SHIFTED,
         /// The number of nodes on the longest way from the tree's root to a leaf; 0 where there is no tree.
         TREE_DEPTH,
-        /// The kinds of shapes in the tree: a bit for each [`shape`](super::shape).
-        TREE_KINDS,
         /// The most steps that a ray may take in the tree.
         MOST_TREE_STEPS,
         /// One of [`aperture`](super::aperture).
         APERTURE,
+        /// The end of the list's first kind of shapes. Those of the others follow, so this is the last name.
+        SHAPE_END,
     }
 }
 
@@ -147,18 +133,21 @@ pub mod aperture {
     }
 }
 
-/// The kinds of shapes in the tree, and a property that some triangles have.
+/// The kinds of shapes. Each has a file of its name in `shaders/shape`, and the list has them in this order.
 pub mod shape {
     numbered! {
         /// A sphere.
         SPHERE,
-        /// A box.
+        /// An axis-aligned box.
         BOX,
         /// A triangle.
         TRIANGLE,
-        /// No kind: some triangles have normals at their corners.
-        SMOOTH,
+        /// An infinite plane.
+        PLANE,
     }
+
+    /// The first kind without bounds: those before it can be in the tree, and move.
+    pub const FIRST_UNBOUNDED: u32 = PLANE;
 }
 
 /// What can be shown instead of the picture, or on it.

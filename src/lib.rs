@@ -24,7 +24,7 @@
 //!
 //! The optics are those of K. Suffern, *Ray Tracing from the Ground Up*, chapter 10: a centre ray
 //! finds the point in focus, a primary ray from a point of the lens goes through it. See
-//! `shaders/include/camera.glsl`.
+//! `shaders/camera/thin_lens.glsl`.
 
 pub mod app;
 pub mod bench;

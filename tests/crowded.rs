@@ -4,7 +4,7 @@
 
 use glam::{DVec3, Vec3};
 use std::fmt::Write;
-use thinlens::scene::{self, Bounded, Bvh, Record, Scene};
+use thinlens::scene::{self, Bvh, Record, Scene, Triangle};
 
 const HEAD: &str = "[camera]\neye = [0, 0, 9]\nlook_at = [0, 0, 0]\nvfov_degrees = 40\nlens_diameter = 0\n\
                     focal_distance = 9\n[emissive.m]\nradiance = 1\n";
@@ -34,10 +34,8 @@ fn spheres(shapes: impl Iterator<Item = (Vec3, f32)>) -> Scene {
 
 /// The tree of a scene's shapes, with a shutter that is open for a second.
 fn bvh(scene: &Scene) -> Bvh {
-    let spheres = scene.spheres.iter().map(|of| of.map(Bounded::Sphere));
-    let boxes = scene.boxes.iter().map(|of| of.map(Bounded::Box));
-    let triangles = scene.triangles.iter().map(|of| of.map(Bounded::Triangle));
-    Bvh::new(spheres.chain(boxes).chain(triangles).collect(), 1.0).expect("a tree")
+    let bounded = scene.shapes.iter().filter(|of| of.shape.bounds().is_some());
+    Bvh::new(bounded.copied().collect(), 1.0).expect("a tree")
 }
 
 /// The tree's depth and how many shapes are in it, after a look at its whole.
@@ -70,7 +68,8 @@ fn many_faces_meet_in_a_vertex() {
     let equal = "v 0 0 0\nv 1 0 0\nv 0 1 0\n".to_owned() + &"f 1 2 3\n".repeat(COUNT);
     for (name, obj) in [("fan", fan), ("cone", cone), ("equal", equal)] {
         let scene = mesh(&obj);
-        assert!(scene.triangles.len() > COUNT - 10, "the {name} has {} triangles", scene.triangles.len());
+        let count = scene.of_kind::<Triangle>().count();
+        assert!(count > COUNT - 10, "the {name} has {count} triangles");
         let (depth, _) = tree(&scene);
         assert!(depth <= 24, "the tree of the {name} is {depth} deep");
     }
@@ -90,13 +89,16 @@ fn crowded_vertices_have_the_crease_of_others() {
         writeln!(obj, "f 1 {} {}", 2 * face + 2, 2 * face + 3).expect("text");
     }
     let scene = mesh(&obj);
-    let sums: Vec<DVec3> =
-        (scene.triangles.iter()).map(|of| of.shape.vertices).map(|[a, b, c]| (b - a).cross(c - a)).collect();
-    for (triangle, own) in scene.triangles.iter().zip(&sums) {
+    let sums: Vec<DVec3> = scene
+        .of_kind::<Triangle>()
+        .map(|(of, _)| of.vertices)
+        .map(|[a, b, c]| (b - a).cross(c - a))
+        .collect();
+    for ((triangle, _), own) in scene.of_kind::<Triangle>().zip(&sums) {
         let own = own.normalize();
         let near = sums.iter().filter(|sum| sum.normalize().dot(own) >= 40_f64.to_radians().cos());
         let expected = near.sum::<DVec3>().normalize();
-        let normal = triangle.shape.normals.expect("normals")[0];
+        let normal = triangle.normals.expect("normals")[0];
         assert!((normal.as_dvec3() - expected).length() < 1e-4, "{normal} is not {expected}");
     }
 }
@@ -165,7 +167,10 @@ fn each_library_is_read_once() {
     obj += &format!("mtllib {}\n", "a ".repeat(20_000));
     obj += &format!("usemtl a # b\nf 1 2 3\nusemtl a {}\nf 1 2 3\n", "# ".repeat(50_000));
     let scene = mesh(&obj);
-    assert_eq!(scene.materials[scene.triangles[1].material as usize].color, Vec3::X);
+    assert_eq!(
+        scene.materials[scene.of_kind::<Triangle>().nth(1).expect("two").1.material as usize].color,
+        Vec3::X
+    );
 }
 
 /// Catches polygons that take long to cut: going round again and again, or to and fro.
@@ -182,6 +187,6 @@ fn tangled_polygons_are_cut_in_time() {
         dart.to_owned() + &" 1 2 3 4".repeat(20_000) + " 2",
         noise,
     ] {
-        assert!(!mesh(&obj).triangles.is_empty());
+        assert!(mesh(&obj).of_kind::<Triangle>().next().is_some());
     }
 }

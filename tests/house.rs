@@ -98,3 +98,38 @@ fn every_planted_fault_is_looked_for() {
     assert_eq!(forgotten, Vec::<&str>::new());
     assert!(names.count() > 50, "the list is read");
 }
+
+/// Every `folder/file` of the project that a text names in backquotes.
+fn paths(text: &str) -> Vec<&str> {
+    let quoted = text.split('`').skip(1).step_by(2);
+    quoted
+        .filter(|path| {
+            ["src/", "shaders/", "tests/", "benches/", "docs/"].iter().any(|start| path.starts_with(start))
+        })
+        // `shaders/*.comp` and `tests/probes/NAME.comp` stand for several.
+        .filter(|path| {
+            path.bytes()
+                .all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit() || b"/._-".contains(&byte))
+        })
+        .collect()
+}
+
+/// Catches a text that sends its reader to a file that has moved.
+#[test]
+fn files_that_texts_name_exist() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut texts = vec![root.join("README.md"), root.join("docs/optics.md"), root.join("docs/scenes.md")];
+    walk(&root.join("src"), &mut |path| texts.push(path.to_path_buf()));
+    walk(&root.join("tests"), &mut |path| texts.push(path.to_path_buf()));
+    let mut named = 0;
+    for text in texts {
+        let content = std::fs::read_to_string(&text).expect("a readable file");
+        for path in content.lines().flat_map(paths) {
+            assert!(root.join(path).exists(), "{}: there is no {path}", text.display());
+            named += 1;
+        }
+    }
+    assert!(named > 50, "only {named} files are named");
+    let quoted = ["src/lib.rs", "src/NAME.rs", "x"].map(|path| format!("`{path}`")).join(" or ");
+    assert_eq!(paths(&quoted), ["src/lib.rs"]);
+}

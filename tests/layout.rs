@@ -20,10 +20,6 @@ type Twin = (&'static str, Vec<(&'static str, usize)>, usize);
 
 fn twins() -> Vec<Twin> {
     vec![
-        twin!("Sphere", Sphere, [center, radius]),
-        twin!("Box", Box, [lower, upper]),
-        twin!("Triangle", Triangle, [vertex, offset, edge1, size, edge2]),
-        twin!("Plane", Plane, [normal, offset]),
         twin!(
             "Material",
             Material,

@@ -2,6 +2,7 @@
 
 mod common;
 
+use common::Gpu;
 use glam::{DVec3, Vec3};
 use std::fmt::Write;
 use std::time::Duration;
@@ -10,7 +11,7 @@ use thinlens::output::loading_line;
 use thinlens::reference::Ray;
 use thinlens::reference::intersect::intersect;
 use thinlens::reference::shading::radiance;
-use thinlens::scene::{self, Scene, Triangle};
+use thinlens::scene::{self, Plane, Scene, SceneRef, Triangle};
 use thinlens::settings::Settings;
 
 /// A scene file without shapes; nothing but the tables that follow gives light.
@@ -30,7 +31,7 @@ fn load(files: &[(&str, &[u8])]) -> Result<Scene, Error> {
 fn triangles(obj: &str) -> Vec<Triangle> {
     let toml = format!("{HEAD}[[mesh]]\nfile = \"mesh.obj\"\n");
     let scene = load(&[("test.toml", toml.as_bytes()), ("mesh.obj", obj.as_bytes())]).expect("a mesh");
-    scene.triangles.iter().map(|triangle| triangle.shape).collect()
+    scene.of_kind::<Triangle>().map(|(triangle, _)| *triangle).collect()
 }
 
 fn across(triangle: &Triangle) -> DVec3 {
@@ -192,7 +193,7 @@ fn a_mesh_is_scaled_then_turned_about_x_y_z_then_moved() {
     );
     let obj = b"v 1 2 3\nv 2 2 3\nv 1 3 3\nvn 0 0 1\nvn 1 0 0\nvn 0 1 0\nf 1//1 2//2 3//3\n";
     let scene = load(&[("test.toml", toml.as_bytes()), ("m.obj", obj)]).expect("a mesh");
-    let triangle = scene.triangles[0].shape;
+    let triangle = *scene.of_kind::<Triangle>().next().expect("a triangle").0;
     // (2, 4, 6), about x (2, -6, 4), about y (4, -6, -2), about z (6, 4, -2).
     let expected = [[16.0, 24.0, 28.0], [16.0, 24.0, 26.0], [16.0, 26.0, 28.0]];
     // The normals: z to -y to -y to x; x to x to -z to -z; y to z to x to y.
@@ -217,8 +218,7 @@ fn colours_come_from_the_library_unless_the_scene_says_otherwise() {
         let files: &[(&str, &[u8])] =
             &[("t.toml", toml.as_bytes()), ("m.obj", obj.as_bytes()), ("my colours.mtl", library)];
         let scene = load(files).expect("a mesh");
-        let material = |triangle: &scene::Shaded<Triangle>| scene.materials[triangle.material as usize];
-        scene.triangles.iter().map(material).collect::<Vec<_>>()
+        scene.of_kind::<Triangle>().map(|(_, of)| scene.materials[of.material as usize]).collect::<Vec<_>>()
     };
     let own = colors("");
     assert_eq!(own[1].color, Vec3::new(0.9, 0.1, 0.0));
@@ -314,7 +314,8 @@ fn a_lone_mesh_is_framed_and_in_focus_at_its_nearest_point() {
 fn check_stage(scene: &Scene) {
     let (camera, lens) = (&scene.camera, &scene.lens);
     let frame = camera.frame();
-    let vertices: Vec<DVec3> = scene.triangles.iter().flat_map(|triangle| triangle.shape.vertices).collect();
+    let vertices: Vec<DVec3> =
+        scene.of_kind::<Triangle>().flat_map(|(triangle, _)| triangle.vertices).collect();
     let lower = vertices.iter().copied().reduce(DVec3::min).expect("vertices");
     let upper = vertices.iter().copied().reduce(DVec3::max).expect("vertices");
     let diagonal = (upper - lower).length();
@@ -331,7 +332,7 @@ fn check_stage(scene: &Scene) {
     }
     // A box that the camera looks along is held farther away than it would need.
     assert!((0.3..0.85).contains(&fill), "the box fills {fill} of the picture");
-    let ground = scene.planes[0].shape;
+    let ground = *scene.of_kind::<Plane>().next().expect("a plane").0;
     let gap = (lower.y - ground.point.y) / diagonal;
     assert!(ground.normal == Vec3::Y && (0.0..2e-3).contains(&gap), "the mesh is {gap} above the ground");
     let depths = vertices.iter().map(|vertex| frame.axial_depth(camera.eye, *vertex));
@@ -357,9 +358,9 @@ fn the_oracle_interpolates_normals() {
     let obj = sphere(3, false, true);
     let scene = load(&[("t.toml", toml.as_bytes()), ("m.obj", obj.as_bytes())]).expect("a mesh");
     let mut random = fastrand::Rng::with_seed(3);
-    for triangle in scene.triangles.iter().map(|triangle| triangle.shape) {
+    for (triangle, _) in scene.of_kind::<Triangle>() {
         let corners = triangle.vertices;
-        let flat = across(&triangle).normalize();
+        let flat = across(triangle).normalize();
         let outward = if flat.dot(corners[0]) > 0.0 { flat } else { -flat };
         let mut weights = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         weights.extend((0..5).map(|_| {
@@ -436,6 +437,16 @@ fn light_and_mirrors_see_the_shading_normal_above_the_surface() {
     }
 }
 
+/// Catches a tree of a single shape that is taken for none: it was not shown.
+#[test]
+fn a_mesh_of_one_triangle_is_shown() {
+    let gpu = Gpu::new();
+    let scene = load(&[("one.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")]).expect("a mesh");
+    let mut settings = Settings::of_scene(SceneRef::new(scene));
+    (settings.estimator.size, settings.samples) = ([64, 36], 4);
+    thinlens::verify::verify(&mut gpu.renderer(), &settings).unwrap_or_else(|error| panic!("{error}"));
+}
+
 /// Catches a line after every small scene, and one that cannot be read.
 #[test]
 fn a_long_loading_is_said() {
@@ -451,7 +462,7 @@ fn no_file_panics() {
                  f 1 2 3 4\nf -1//1 -2//-1 \\\n 2//2\nf 1/1/1 2/1/2 4/1/1 # end\ng a\ns off\n";
     let library = "newmtl red\nKd 1 0.5 0\nnewmtl b\nKd 1\nmap_Kd a.png\n";
     let both = |obj: &[u8], library: &[u8]| load(&[("m.obj", obj), ("a.mtl", library)]);
-    assert_eq!(both(valid.as_bytes(), library.as_bytes()).expect("valid").triangles.len(), 4);
+    assert_eq!(both(valid.as_bytes(), library.as_bytes()).expect("valid").of_kind::<Triangle>().count(), 4);
     for end in 0..valid.len() {
         let _ = both(&valid.as_bytes()[..end], library.as_bytes());
     }

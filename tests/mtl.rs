@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use std::path::Path;
-use thinlens::scene;
+use thinlens::scene::{self, Triangle};
 
 const HEAD: &str = "[camera]\neye = [0, 0, 9]\nlook_at = [0, 0, 0]\nvfov_degrees = 40\nlens_diameter = 0\n\
                     focal_distance = 9\n[[mesh]]\nfile = \"mesh.obj\"\n";
@@ -24,7 +24,7 @@ fn colors(head: &str, materials: &[&str], files: &[(&str, &str)]) -> Vec<Vec3> {
     }
     let path = folder.path().join("scene.toml");
     let scene = scene::load(path.to_str().expect("a plain path")).unwrap_or_else(|error| panic!("{error}"));
-    scene.triangles.iter().map(|triangle| scene.materials[triangle.material as usize].color).collect()
+    scene.of_kind::<Triangle>().map(|(_, of)| scene.materials[of.material as usize].color).collect()
 }
 
 /// The colour that these lines of a material give.

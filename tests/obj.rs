@@ -27,13 +27,13 @@ fn load(obj: &[u8], files: &[(&[u8], &[u8])]) -> Result<Scene, Error> {
 
 fn triangles(obj: &[u8]) -> Vec<Triangle> {
     let scene = load(obj, &[]).unwrap_or_else(|error| panic!("{error}"));
-    scene.triangles.iter().map(|triangle| triangle.shape).collect()
+    scene.of_kind::<Triangle>().map(|(triangle, _)| *triangle).collect()
 }
 
 /// The colours of the triangles.
 fn colors(obj: &[u8], files: &[(&[u8], &[u8])]) -> Vec<Vec3> {
     let scene = load(obj, files).unwrap_or_else(|error| panic!("{error}"));
-    scene.triangles.iter().map(|triangle| scene.materials[triangle.material as usize].color).collect()
+    scene.of_kind::<Triangle>().map(|(_, of)| scene.materials[of.material as usize].color).collect()
 }
 
 const RED: Vec3 = Vec3::X;

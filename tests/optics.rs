@@ -5,7 +5,7 @@ mod common;
 use anyhow::{Result, ensure};
 use common::{Gpu, circle_of_confusion, film, pixels, prove, settings_of};
 use glam::Vec3;
-use thinlens::scene::{self, Background, Material, Scene, SceneRef};
+use thinlens::scene::{self, Background, Box, Material, Scene, SceneRef};
 use thinlens::settings::Settings;
 
 const SIZE: [u32; 2] = [160, 120];
@@ -221,7 +221,7 @@ fn only_box(number: usize) -> Scene {
     scene.lights.clear();
     scene.ambient = Vec3::ZERO;
     scene.background = Background { horizon: Vec3::ZERO, zenith: Vec3::ZERO };
-    let lamp = scene.boxes[number].material as usize;
+    let lamp = scene.of_kind::<Box>().nth(number).expect("a box").1.material as usize;
     for (index, material) in scene.materials.iter_mut().enumerate() {
         let emission = if index == lamp { Vec3::ONE } else { Vec3::ZERO };
         *material = Material { emission, ..Material::default() };

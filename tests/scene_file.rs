@@ -1,7 +1,9 @@
 //! Scene files: what they mean, and where their errors point.
 
 use thinlens::error::Error;
-use thinlens::scene::{self, BUILTINS, CameraModel, LightKind, Overlay, SceneRef, View};
+use thinlens::scene::{
+    self, BUILTINS, Box, CameraModel, LightKind, Overlay, Plane, SceneRef, Sphere, Triangle, View,
+};
 use thinlens::settings::Settings;
 
 /// A valid file; every error below is one line changed or added.
@@ -67,9 +69,9 @@ fn a_file_means_what_it_says() {
     assert!((scene.camera.vfov_radians - 60_f64.to_radians()).abs() < 1e-12);
     assert_eq!(scene.lights.len(), 1);
     assert!(matches!(scene.lights[0].kind, LightKind::Point(at) if at.to_array() == [0.0, 5.0, 0.0]));
-    let red = &scene.materials[scene.spheres[0].material as usize];
+    let red = &scene.materials[scene.of_kind::<Sphere>().next().expect("a sphere").1.material as usize];
     assert_eq!(red.color.to_array(), [1.0, 0.0, 0.0]);
-    let blue = &scene.materials[scene.triangles[0].material as usize];
+    let blue = &scene.materials[scene.of_kind::<Triangle>().next().expect("a triangle").1.material as usize];
     assert_eq!((blue.ka, blue.kd, blue.ks, blue.exponent), (0.5, 0.5, 0.2, 10.0));
     assert_eq!(blue.checker.expect("a checker").size, 2.0);
     assert_eq!(blue.checker.expect("a checker").odd_color.to_array(), [1.0; 3]);
@@ -166,22 +168,27 @@ fn the_built_in_scenes_are_those_of_the_book() {
     assert_eq!(boxes.size, [400, 300]);
     assert!((boxes.camera.view_distance_pixels(300) - 800.0).abs() < 1e-9, "k is 800 pixels");
     assert_eq!((boxes.lens.diameter, boxes.lens.focal_distance), (2.0, 74.0));
-    assert_eq!(boxes.boxes.len(), 3);
+    let of_boxes: Vec<_> = boxes.of_kind::<Box>().collect();
+    assert_eq!(of_boxes.len(), 3);
     // The focal plane lies on the front of the middle box.
-    let depth = boxes.camera.frame().axial_depth(boxes.camera.eye, boxes.boxes[1].shape.upper);
+    let depth = boxes.camera.frame().axial_depth(boxes.camera.eye, of_boxes[1].0.upper);
     assert!((depth - 74.0).abs() < 1e-9);
 
     let mirror = scene::load("suffern-mirror").expect("a built-in");
     assert_eq!(mirror.size, [450, 300]);
     assert!((mirror.camera.view_distance_pixels(300) - 600.0).abs() < 1e-9, "k is 600 pixels");
     // The red plane lies on the focal plane, 100 along the axis, and across it.
-    let (camera, red) = (&mirror.camera, mirror.planes[1].shape);
+    let (camera, red) = (&mirror.camera, *mirror.of_kind::<Plane>().nth(1).expect("a plane").0);
     let depth = camera.frame().axial_depth(camera.eye, red.point);
     assert!((depth - 100.0).abs() < 1e-4, "{depth}");
     assert!(red.normal.as_dvec3().normalize().dot(camera.frame().w()) > 1.0 - 1e-12);
 
     let version_4 = scene::load("version-4").expect("a built-in");
-    assert!(version_4.spheres.len() >= 10 && !version_4.triangles.is_empty() && version_4.boxes.len() >= 3);
+    assert!(
+        version_4.of_kind::<Sphere>().count() >= 10
+            && version_4.of_kind::<Triangle>().count() > 0
+            && version_4.of_kind::<Box>().count() >= 3
+    );
 }
 
 /// Catches a misspelt name that gives no hint, and a built-in that does not load.
@@ -210,5 +217,6 @@ fn the_documented_example_is_valid() {
     let example =
         page.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("an example");
     let scene = load(example).expect("the example");
-    assert_eq!((scene.spheres.len(), scene.planes.len(), scene.lights.len()), (1, 1, 1));
+    let counts = (scene.of_kind::<Sphere>().count(), scene.of_kind::<Plane>().count(), scene.lights.len());
+    assert_eq!(counts, (1, 1, 1));
 }

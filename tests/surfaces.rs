@@ -7,12 +7,12 @@ use bytemuck::{Pod, Zeroable};
 use common::probe::{FAR, RayAnswer, RayQuestion, probe};
 use common::scenes::{EVERYTHING, ROOM, one_behind_the_other};
 use common::{Gpu, plain_scene_of, prove, scene_of};
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 use thinlens::gpu_types::SceneData;
 use thinlens::reference::intersect::intersect;
 use thinlens::reference::sampler;
 use thinlens::reference::shading::radiance;
-use thinlens::scene::{SceneRef, Shaded, Triangle};
+use thinlens::scene::{Box, SceneRef, Shaded, Sphere, Triangle};
 use thinlens::settings::Sampler;
 
 /// Values in [-1, 1), four for each index.
@@ -85,7 +85,7 @@ fn shapes() -> Vec<(&'static str, SceneRef)> {
 /// Its tree is deeper than the part of the shaders' stack that is spelled out.
 fn chain() -> SceneRef {
     let scene = scene_of(&(CAMERA.to_owned() + &one_behind_the_other()));
-    let depth = SceneData::new(&scene, 1.0).tree.expect("a tree").depth;
+    let depth = SceneData::new(&scene, 1.0).tree_depth;
     assert!(depth > 20, "the chain's tree is {depth} deep only");
     scene
 }
@@ -118,8 +118,8 @@ fn everything_and_smooth_triangles() -> SceneRef {
     let mut scene = plain_scene_of(EVERYTHING);
     // Without a shadow, nothing else keeps light from a surface's back.
     scene.lights[1].shadows = false;
-    let shiny = scene.boxes[0].material;
-    let mirror = scene.spheres[0].material;
+    let shiny = scene.of_kind::<Box>().next().expect("a box").1.material;
+    let mirror = scene.of_kind::<Sphere>().next().expect("a sphere").1.material;
     for index in 0..200 {
         let [x, y, z, _] = random(index, 10);
         let center = DVec3::new(2.0 * x, 1.0 + y, 2.0 * z);
@@ -132,9 +132,16 @@ fn everything_and_smooth_triangles() -> SceneRef {
         let normals = [14, 15, 16]
             .map(|stream| (across + spread * random_direction(index, stream).as_vec3()).normalize());
         let material = if index % 4 == 0 { mirror } else { shiny };
-        scene.triangles.push(Shaded::still(Triangle { vertices, normals: Some(normals) }, material));
+        scene.shapes.push(Shaded::still(Triangle { vertices, normals: Some(normals) }, material));
     }
     SceneRef::new(scene)
+}
+
+/// Whether two places on a shape are the same: what goes around it is from 0 to 1, and begins where it ends.
+fn same_place(uv: [f32; 2], expected: DVec2) -> bool {
+    let [u, v] = [0, 1].map(|axis| (f64::from(uv[axis]) - expected[axis]).abs());
+    let most = 2e-3 * expected.abs().max_element().max(1.0);
+    v < most && (u < most || (1.0 - u).abs() < most)
 }
 
 /// Catches an intersection that is wrong anywhere: from inside, from behind, along an axis, on the
@@ -159,10 +166,11 @@ fn rays_meet_what_the_oracles_meet() {
                         let distance = (f64::from(answer.distance) - expected.distance).abs()
                             / expected.distance.max(1.0);
                         let normal = Vec3::from_array(answer.normal).as_dvec3();
-                        // On either side; the oracle's looks at the ray's origin.
-                        let turn =
-                            (normal - expected.normal).length().min((normal + expected.normal).length());
+                        // The oracle's looks at the ray's origin, the device's where the shape's own does.
+                        let side = if expected.from_behind { -1.0 } else { 1.0 };
+                        let turn = (normal - side * expected.normal).length();
                         let same = hit
+                            && same_place(answer.uv, expected.uv)
                             && answer.occluded == 1
                             && answer.material == expected.material
                             && distance < 1e-4
@@ -206,7 +214,7 @@ fn rays_meet_what_the_oracles_meet() {
             "plane_on_the_other_side_of_the_origin",
             "plane_met_behind_the_ray",
             "farthest_hit_kept",
-            "shapes_numbered_by_kind",
+            "shape_beside_the_nearest",
             "tree_child_of_another_number",
             "tree_children_lost",
             "tree_stack_one_deep",

@@ -1,8 +1,8 @@
 //! How bright what a pixel's rays can meet is: what an adaptive picture reckons with where its samples have not met
-//! it yet. See `shaders/include/adaptive.glsl`.
+//! it yet. See `shaders/core/adaptive.glsl`.
 
 use super::Camera;
-use crate::scene::{Frame, Material, Plane, Scene, Shaded};
+use crate::scene::{Frame, Material, Plane, Scene};
 use crate::settings::Estimator;
 use glam::{DVec2, DVec3, Vec3};
 
@@ -42,26 +42,18 @@ impl Brightest {
         let sky = luminance(sky(scene)) as f32;
         let mut grid = Self { luminances: vec![sky; (columns * rows) as usize], cell, columns };
         let view = View::new(estimator);
-        for plane in &scene.planes {
-            grid.raise(of_materials[plane.material as usize], |cell| view.sees(&plane.shape, cell));
+        for (plane, of) in scene.of_kind::<Plane>() {
+            grid.raise(of_materials[of.material as usize], |cell| view.sees(plane, cell));
         }
         // What is no brighter than this need not be looked for.
         let least = grid.luminances.iter().copied().fold(f32::INFINITY, f32::min);
         let cover = |bright: &f32| (*bright > least).then(|| Coverage::new([columns, rows], cell));
         let mut coverages: Vec<Option<Coverage>> = of_materials.iter().map(cover).collect();
-        for of in &scene.spheres {
-            let (center, radius) = (of.shape.center, f64::from(of.shape.radius));
-            let Frame { world_from_camera } = view.frame;
-            let corner = |corner: DVec3| center + world_from_camera * (radius * (2.0 * corner - 1.0));
-            cover_shape(&mut coverages, &view, of, unit_corners().map(corner));
-        }
-        for of in &scene.boxes {
-            let (lower, upper) = (of.shape.lower, of.shape.upper);
-            let corner = |corner: DVec3| lower + corner * (upper - lower);
-            cover_shape(&mut coverages, &view, of, unit_corners().map(corner));
-        }
-        for of in &scene.triangles {
-            cover_shape(&mut coverages, &view, of, of.shape.vertices.into_iter());
+        let axes = view.frame.world_from_camera;
+        for of in scene.shapes.iter().filter(|of| of.shape.bounds().is_some()) {
+            if let Some(coverage) = &mut coverages[of.material as usize] {
+                coverage.add(view.area(of.shape.corners(axes).iter(), of.velocity));
+            }
         }
         for (bright, coverage) in of_materials.iter().zip(&coverages) {
             for cell in coverage.iter().flat_map(Coverage::covered) {
@@ -214,23 +206,6 @@ impl View {
             })
         })
     }
-}
-
-/// Covers where a convex shape with these corners is seen, if its material has a coverage.
-fn cover_shape<T>(
-    coverages: &mut [Option<Coverage>],
-    view: &View,
-    of: &Shaded<T>,
-    corners: impl Iterator<Item = DVec3>,
-) {
-    if let Some(coverage) = &mut coverages[of.material as usize] {
-        coverage.add(view.area(corners, of.velocity));
-    }
-}
-
-/// The corners of the unit cube.
-fn unit_corners() -> impl Iterator<Item = DVec3> {
-    (0..8).map(|corner| DVec3::new(f64::from(corner & 1), f64::from(corner >> 1 & 1), f64::from(corner >> 2)))
 }
 
 /// Which cells of the grid some of many rectangles cover. Kept as differences of a cell to the one before it in

@@ -5,53 +5,17 @@
 mod aperture;
 mod brightest;
 mod scene;
+mod shape;
 
 pub use aperture::{Aperture, ApertureBuffer, aperture_constant, aperture_sums};
 pub use brightest::Brightest;
-pub use scene::{SceneData, Tree};
+pub use scene::SceneData;
+pub use shape::ShapeRecord;
 
 use crate::interface::{constant, overlay, sampler};
 use crate::scene::{CameraModel, Hole, Overlay};
 use crate::settings::{Estimator, Sampler, Settings};
 use bytemuck::{Pod, Zeroable};
-
-/// `Sphere` of scene.glsl.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable)]
-pub struct Sphere {
-    pub center: [f32; 3],
-    pub radius: f32,
-}
-
-/// `Box` of scene.glsl.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable)]
-pub struct Box {
-    pub lower: [f32; 3],
-    pub pad0: u32,
-    pub upper: [f32; 3],
-    pub pad1: u32,
-}
-
-/// `Triangle` of scene.glsl.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable)]
-pub struct Triangle {
-    pub vertex: [f32; 3],
-    pub offset: f32,
-    pub edge1: [f32; 3],
-    pub size: f32,
-    pub edge2: [f32; 3],
-    pub pad0: u32,
-}
-
-/// `Plane` of scene.glsl.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable)]
-pub struct Plane {
-    pub normal: [f32; 3],
-    pub offset: f32,
-}
 
 /// `Material` of scene.glsl.
 #[repr(C)]
@@ -91,8 +55,8 @@ pub struct Environment {
     pub reach: f32,
 }
 
-/// The three texels of a node in bvh.glsl. The last byte of `about` is the number of children, where a shape's
-/// index of a material has zero. `first` stands where a shape has no float.
+/// The three texels of a node in bvh.glsl. The last byte of `about` is the number of children, where a
+/// [`ShapeRecord`]'s index of a material has zero. `first` stands where that has no float.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub struct TreeNode {
@@ -105,18 +69,6 @@ pub struct TreeNode {
     pub first: u32,
 }
 
-/// The three texels of a shape in bvh.glsl.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable)]
-pub struct TreeShape {
-    pub position: [f32; 3],
-    pub material: u32,
-    pub a: [f32; 3],
-    pub kind: u32,
-    pub b: [f32; 3],
-    pub index: u32,
-}
-
 /// `Counters` of trace_batch.glsl, added to by every dispatch.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable, Default)]
@@ -126,7 +78,7 @@ pub struct Counters {
     pub listed_samples: u32,
 }
 
-/// `Camera` of camera.glsl.
+/// `Camera` of thin_lens.glsl.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub struct Camera {

@@ -2,6 +2,7 @@
 
 use crate::error::Result;
 use crate::interrupt::Leftover;
+use crate::scene::Triangle;
 use crate::settings::Settings;
 use indicatif::{HumanCount, ProgressBar, ProgressStyle};
 use std::convert::Infallible;
@@ -22,7 +23,7 @@ pub fn load(quiet: bool, load: impl FnOnce() -> Result<Settings>) -> Result<Sett
     let started = Instant::now();
     let settings = load()?;
     let scene = &settings.estimator.scene;
-    let line = loading_line(&scene.name, scene.triangles.len() as u64, started.elapsed());
+    let line = loading_line(&scene.name, scene.of_kind::<Triangle>().count() as u64, started.elapsed());
     if let Some(line) = line.filter(|_| !quiet) {
         eprintln!("{line}");
     }

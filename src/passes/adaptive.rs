@@ -1,5 +1,5 @@
 //! What an adaptive picture needs besides tracing and accumulation image: see
-//! `shaders/include/adaptive.glsl`.
+//! `shaders/core/adaptive.glsl`.
 
 use crate::error::Result;
 use crate::gpu_types::Brightest;

@@ -6,7 +6,7 @@ use crate::vulkan::{Binding, Device, TexelBuffer};
 use std::sync::Arc;
 
 /// The tile of `examples/blue_noise_tile.rs` on the device, for every shader that uses
-/// `shaders/include/sampling.glsl`.
+/// `shaders/core/sampling.glsl`.
 #[derive(Clone)]
 pub struct BlueNoiseTile(Arc<TexelBuffer>);
 

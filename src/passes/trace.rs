@@ -3,7 +3,7 @@
 use super::{Adaptive, BlueNoiseTile, Opening};
 use crate::error::{Error, Result};
 use crate::gpu_types::{SceneData, TracePush};
-use crate::interface::{SPELLED_OUT_STACK, STACK_INDEX_BITS, binding, constant};
+use crate::interface::{SPELLED_OUT_STACK, STACK_INDEX_BITS, binding, constant, shape};
 use crate::vulkan::{
     Binding, BindingSet, Buffer, ComputePipeline, Device, Image, Recording, Shader, TexelBuffer, shader,
 };
@@ -21,7 +21,7 @@ pub struct Trace {
 const MOST_KEPT: usize = 64;
 
 /// The stack of bvh.glsl has so many bits for the index of a record.
-const MOST_TREE_RECORDS: usize = 1 << STACK_INDEX_BITS;
+const MOST_RECORDS: usize = 1 << STACK_INDEX_BITS;
 
 /// The bits of a sample index, which the Sobol sequence goes through, and the searches in an aperture's image.
 const SAMPLER_LOOP_STEPS: u64 = 24 + 16;
@@ -41,54 +41,43 @@ impl SceneBuffers {
     /// [`Error::Limit`] where it has more shapes than a tree can hold, [`Error::Memory`], or what Vulkan says.
     pub fn new(device: &Arc<Device>, scene: &SceneData) -> Result<Self> {
         let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
-        let (records, normals, velocities, depth, kinds) = match &scene.tree {
-            Some(tree) => (&*tree.records, &*tree.normals, &*tree.velocities, tree.depth, tree.kinds),
-            None => (&[][..], &[][..], &[][..], 0, 0),
-        };
-        if records.len() > MOST_TREE_RECORDS {
+        if scene.records.len() > MOST_RECORDS {
             return Err(Error::Limit {
-                what: "the tree of shapes",
+                what: "the list of shapes and the nodes of their tree",
                 unit: "records",
-                wanted: records.len() as u64,
-                most: MOST_TREE_RECORDS as u64,
+                wanted: scene.records.len() as u64,
+                most: MOST_RECORDS as u64,
                 limit: "of thinlens itself".into(),
                 advice: "use fewer shapes",
             });
         }
         let traits = device.traits();
-        let steps = count(records.len()).min(traits.max_tree_steps.unwrap_or(u32::MAX));
-        let few =
-            scene.material_of_shape.len().max(scene.materials.len()).max(scene.lights.len()) <= MOST_KEPT;
+        let steps = scene.list_begin.min(traits.max_tree_steps.unwrap_or(u32::MAX));
+        let listed = scene.records.len() - scene.list_begin as usize;
+        let few = listed.max(scene.materials.len()).max(scene.lights.len()) <= MOST_KEPT;
         let kept = traits.keeps_scene && few;
         let bindings = vec![
-            (binding::SPHERES, buffer(device, "spheres", &scene.spheres)?),
-            (binding::BOXES, buffer(device, "boxes", &scene.boxes)?),
-            (binding::TRIANGLES, buffer(device, "triangles", &scene.triangles)?),
-            (binding::PLANES, buffer(device, "planes", &scene.planes)?),
-            (binding::MATERIAL_OF_SHAPE, buffer(device, "material of shape", &scene.material_of_shape)?),
-            (binding::VELOCITIES, buffer(device, "velocities", &scene.velocities)?),
             (binding::MATERIALS, buffer(device, "materials", &scene.materials)?),
             (binding::LIGHTS, buffer(device, "lights", &scene.lights)?),
             (binding::ENVIRONMENT, buffer(device, "environment", &[scene.environment])?),
-            (binding::TREE_RECORDS, texels(device, "tree", records)?),
-            (binding::TREE_NORMALS, texels(device, "normals", normals)?),
-            (binding::TREE_VELOCITIES, texels(device, "velocities in the tree", velocities)?),
+            (binding::RECORDS, texels(device, "shapes", &scene.records)?),
+            (binding::CORNER_NORMALS, texels(device, "corner normals", &scene.normals)?),
+            (binding::VELOCITIES, texels(device, "velocities", &scene.velocities)?),
         ];
-        let constants = vec![
-            (constant::SPHERE_COUNT, count(scene.spheres.len())),
-            (constant::BOX_COUNT, count(scene.boxes.len())),
-            (constant::TRIANGLE_COUNT, count(scene.triangles.len())),
-            (constant::PLANE_COUNT, count(scene.planes.len())),
+        let mut constants = vec![
             (constant::LIGHT_COUNT, count(scene.lights.len())),
             (constant::SHADOW_LIGHT_COUNT, count(scene.shadow_lights)),
             (constant::MATERIAL_COUNT, count(scene.materials.len().max(1))),
             (constant::SCENE_IS_KEPT, kept.into()),
             (constant::SCENE_MOVES, scene.moves.into()),
             (constant::SCENE_IS_SHIFTED, scene.shifted.into()),
-            (constant::TREE_DEPTH, depth),
-            (constant::TREE_KINDS, kinds),
+            (constant::TREE_DEPTH, scene.tree_depth),
+            (constant::LIST_BEGIN, scene.list_begin),
+            (constant::SHAPE_KINDS, scene.kinds),
+            (constant::HAS_CORNER_NORMALS, (!scene.normals.is_empty()).into()),
             (constant::MOST_TREE_STEPS, steps),
         ];
+        constants.extend((constant::SHAPE_END..).zip(scene.list_ends));
         let reflects = scene.materials.iter().any(|material| material.reflectance != [0.0; 3]);
         Ok(Self { bindings, constants, reflects })
     }
@@ -108,7 +97,7 @@ impl SceneBuffers {
         let of = |id| u64::from(self.constant(id));
         let too_deep = of(constant::TREE_DEPTH).saturating_sub(SPELLED_OUT_STACK.into());
         let tree = of(constant::MOST_TREE_STEPS) * (1 + too_deep);
-        let shapes = u64::from(self.listed_shapes()) + of(constant::PLANE_COUNT) + tree;
+        let shapes = u64::from(self.listed_shapes()) + tree;
         let lights = of(constant::LIGHT_COUNT);
         SAMPLER_LOOP_STEPS + u64::from(self.most_surfaces(max_bounces)) * (1 + shapes + lights * (1 + shapes))
     }
@@ -116,36 +105,36 @@ impl SceneBuffers {
     /// What the most steps of a sample come from.
     pub fn most_steps_in_words(&self, max_bounces: u32) -> String {
         let of = |id| self.constant(id);
-        let shapes = match self.listed_shapes() {
+        // The range of the unbounded kinds is the last.
+        let bounded = of(constant::SHAPE_END + shape::FIRST_UNBOUNDED - 1);
+        let planes = self.listed_shapes() - bounded;
+        let shapes = match bounded {
             0 => format!("up to {} steps in the tree of shapes", of(constant::MOST_TREE_STEPS)),
             listed => format!("{listed} shapes"),
         };
         let reflections = self.most_surfaces(max_bounces) - 1;
-        let (lights, planes) = (of(constant::LIGHT_COUNT), of(constant::PLANE_COUNT));
+        let lights = of(constant::LIGHT_COUNT);
         format!(
             "{reflections} reflections (--max-bounces), {lights} lights at each surface, and for every ray {planes} \
              planes and {shapes}"
         )
     }
 
-    /// The shapes in lists, but for planes.
+    /// The number of shapes in the list.
     fn listed_shapes(&self) -> u32 {
-        [constant::SPHERE_COUNT, constant::BOX_COUNT, constant::TRIANGLE_COUNT]
-            .map(|id| self.constant(id))
-            .iter()
-            .sum()
+        self.constant(constant::SHAPE_END + shape::NAMES.len() as u32 - 1)
     }
 
     fn most_surfaces(&self, max_bounces: u32) -> u32 {
         if self.reflects { 1 + max_bounces } else { 1 }
     }
 
-    /// Every binding of `shaders/include/scene.glsl` and `bvh.glsl`.
+    /// Every binding of `shaders/scene/scene.glsl` and `bvh.glsl`.
     pub fn bindings(&self) -> Vec<(u32, Binding)> {
         self.bindings.clone()
     }
 
-    /// Every specialization constant of `shaders/include/scene.glsl` and `bvh.glsl`.
+    /// Every specialization constant of `shaders/scene/scene.glsl` and `bvh.glsl`.
     pub fn constants(&self) -> &[(u32, u32)] {
         &self.constants
     }

@@ -11,6 +11,7 @@ pub mod film;
 pub mod intersect;
 pub mod sampler;
 pub mod shading;
+pub mod shape;
 pub mod tone;
 
 use crate::scene::{Aperture, CameraModel};

@@ -3,7 +3,7 @@
 //! Wide BVHs", HPG 2017.
 
 use super::clusters::{along_curve, shallow_tree, tree};
-use super::{Aabb, Shaded, Sphere, Triangle};
+use super::{Shaded, Shape};
 use glam::{DVec3, Vec3, Vec3A};
 use obvhs::aabb::Aabb as Bounds;
 use obvhs::bvh2::Bvh2;
@@ -19,24 +19,13 @@ const LAST_PLANE: u8 = u8::MAX;
 /// every step, and loses to the shallowest tree.
 const DEEPEST: u32 = 24;
 
-/// A bounded shape.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Bounded {
-    /// A sphere.
-    Sphere(Sphere),
-    /// An axis-aligned box.
-    Box(Aabb),
-    /// A triangle.
-    Triangle(Triangle),
-}
-
 /// The tree.
 #[derive(Debug)]
 pub struct Bvh {
     /// Nodes and leaves. The first is the root; the children of a node follow one another, behind it.
     pub records: Vec<Record>,
     /// The shapes, where they are in the middle of the exposure. Copies of others have no leaf.
-    pub shapes: Vec<Shaded<Bounded>>,
+    pub shapes: Vec<Shaded>,
     /// Nodes on the longest way from the root to a leaf.
     pub depth: u32,
 }
@@ -66,14 +55,13 @@ pub struct Node {
 }
 
 impl Bvh {
-    /// Around these shapes, and all places where they come by while the shutter is open for so many seconds.
-    /// None where there are none.
-    pub fn new(shapes: Vec<Shaded<Bounded>>, shutter: f32) -> Option<Self> {
+    /// Around these shapes, which have bounds, and all places where they come by while the shutter is open for so
+    /// many seconds. None where there are none.
+    pub fn new(shapes: Vec<Shaded>, shutter: f32) -> Option<Self> {
         if shapes.is_empty() {
             return None;
         }
-        let bounds: Vec<Bounds> =
-            shapes.iter().map(|of| of.shape.bounds(0.5 * shutter * of.velocity.abs())).collect();
+        let bounds: Vec<Bounds> = shapes.iter().map(|of| bounds(of, shutter)).collect();
         let order = without_copies(&along_curve(&bounds), &shapes);
         let (mut records, mut depth) = widen(&tree(&bounds, &order));
         if depth > DEEPEST {
@@ -83,29 +71,18 @@ impl Bvh {
     }
 }
 
-impl Bounded {
-    /// The box around it, wider by so much on either side, and by what f32 may lose of a point on it.
-    fn bounds(&self, wider: Vec3) -> Bounds {
-        let (lower, upper) = match self {
-            Self::Sphere(sphere) => {
-                let center = sphere.center.as_vec3();
-                (center - sphere.radius, center + sphere.radius)
-            }
-            Self::Box(aabb) => (aabb.lower.as_vec3(), aabb.upper.as_vec3()),
-            Self::Triangle(triangle) => {
-                let [a, b, c] = triangle.vertices.map(|vertex| vertex.as_vec3());
-                (a.min(b).min(c), a.max(b).max(c))
-            }
-        };
-        let (lower, upper) = (lower - wider, upper + wider);
-        let margin = Vec3::splat(1e-6 * lower.abs().max(upper.abs()).max_element());
-        Bounds::new(Vec3A::from(lower - margin), Vec3A::from(upper + margin))
-    }
+/// The box around a shape and all places where it comes by, wider by what f32 may lose of a point on it.
+fn bounds(of: &Shaded, shutter: f32) -> Bounds {
+    let [lower, upper] = of.shape.bounds().expect("only bounded shapes are in a tree");
+    let way = 0.5 * shutter * of.velocity.abs();
+    let (lower, upper) = (lower.as_vec3() - way, upper.as_vec3() + way);
+    let margin = Vec3::splat(1e-6 * lower.abs().max(upper.abs()).max_element());
+    Bounds::new(Vec3A::from(lower - margin), Vec3A::from(upper + margin))
 }
 
 /// The indices of shapes along the curve, of those in one place the first only: no ray sees more of them, but
 /// each would try all.
-fn without_copies(along_curve: &[(u128, u32)], shapes: &[Shaded<Bounded>]) -> Vec<u32> {
+fn without_copies(along_curve: &[(u128, u32)], shapes: &[Shaded]) -> Vec<u32> {
     let mut indices = Vec::with_capacity(along_curve.len());
     for run in along_curve.chunk_by(|a, b| a.0 == b.0) {
         let mut known = HashSet::new();
@@ -116,20 +93,11 @@ fn without_copies(along_curve: &[(u128, u32)], shapes: &[Shaded<Bounded>]) -> Ve
 }
 
 /// What shapes that always cover one another have in common: their kind, and the bits of numbers.
-fn place(of: &Shaded<Bounded>) -> (u32, [[u32; 3]; 4]) {
-    let (kind, [a, b, c]) = match of.shape {
-        Bounded::Sphere(sphere) => (0, [sphere.center.as_vec3(), Vec3::splat(sphere.radius), Vec3::ZERO]),
-        Bounded::Box(aabb) => (1, [aabb.lower.as_vec3(), aabb.upper.as_vec3(), Vec3::ZERO]),
-        Bounded::Triangle(triangle) => (2, triangle.vertices.map(|vertex| vertex.as_vec3())),
-    };
+fn place(of: &Shaded) -> (std::mem::Discriminant<Shape>, [[u32; 3]; 4]) {
     // -0 and 0 are one place.
     let bits = |vector: Vec3| (vector + Vec3::ZERO).to_array().map(f32::to_bits);
-    let mut corners = [bits(a), bits(b), bits(c)];
-    if kind == 2 {
-        corners.sort_unstable();
-    }
-    let [a, b, c] = corners;
-    (kind, [a, b, c, bits(of.velocity)])
+    let [a, b, c] = of.shape.place();
+    (std::mem::discriminant(&of.shape), [a, b, c, of.velocity].map(bits))
 }
 
 /// The records of a binary tree, and their depth.

@@ -5,50 +5,62 @@ use super::camera_format::{CameraTable, Shot, ViewTable, view};
 use super::file::Fault;
 use super::material_format::{LightColor, MaterialList, MatteTable, MirrorTable, Named, PhongTable, white};
 use super::mesh::{Mesh, Placement};
-use super::number::{Count, Extent, NonNegative, Positive, Rgb, Vector};
-use super::{Aabb, Background, Light, LightKind, Plane, Scene, Shaded, Sphere, Triangle, View};
-use glam::{DVec3, Vec3};
+use super::number::{Count, Extent, NonNegative, Positive, Rgb, Vector, zero};
+use super::shape::{self, ShapeTable, shape_kinds};
+use super::{Background, Light, LightKind, Scene, Shaded, View};
+use glam::Vec3;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct SceneFile {
-    #[serde(default = "default_size")]
-    size: [Extent; 2],
-    #[serde(default = "default_max_bounces")]
-    max_bounces: Count,
-    camera: Spanned<CameraTable>,
-    #[serde(default)]
-    view: Option<Spanned<ViewTable>>,
-    #[serde(default)]
-    background: Option<Spanned<BackgroundTable>>,
-    #[serde(default)]
-    ambient: Option<LightColor>,
-    #[serde(default)]
-    point: Vec<PointTable>,
-    #[serde(default)]
-    directional: Vec<DirectionalTable>,
-    #[serde(default)]
-    matte: Named<MatteTable>,
-    #[serde(default)]
-    phong: Named<PhongTable>,
-    #[serde(default)]
-    mirror: Named<MirrorTable>,
-    #[serde(default)]
-    emissive: Named<LightColor>,
-    #[serde(default)]
-    sphere: Vec<SphereTable>,
-    #[serde(default, rename = "box")]
-    boxes: Vec<BoxTable>,
-    #[serde(default)]
-    triangle: Vec<TriangleTable>,
-    #[serde(default)]
-    plane: Vec<PlaneTable>,
-    #[serde(default)]
-    mesh: Vec<MeshTable>,
+macro_rules! define_scene_file {
+    ($(($kind:ident, $table:ident, $name:ident),)+) => {
+        #[derive(Deserialize)]
+        #[serde(deny_unknown_fields)]
+        pub(super) struct SceneFile {
+            #[serde(default = "default_size")]
+            size: [Extent; 2],
+            #[serde(default = "default_max_bounces")]
+            max_bounces: Count,
+            camera: Spanned<CameraTable>,
+            #[serde(default)]
+            view: Option<Spanned<ViewTable>>,
+            #[serde(default)]
+            background: Option<Spanned<BackgroundTable>>,
+            #[serde(default)]
+            ambient: Option<LightColor>,
+            #[serde(default)]
+            point: Vec<PointTable>,
+            #[serde(default)]
+            directional: Vec<DirectionalTable>,
+            #[serde(default)]
+            matte: Named<MatteTable>,
+            #[serde(default)]
+            phong: Named<PhongTable>,
+            #[serde(default)]
+            mirror: Named<MirrorTable>,
+            #[serde(default)]
+            emissive: Named<LightColor>,
+            #[serde(default)]
+            mesh: Vec<MeshTable>,
+            $(#[serde(default)]
+            $name: Vec<shape::$table>,)+
+        }
+
+        impl SceneFile {
+            /// The shapes, kind by kind.
+            fn shapes(&self, materials: &MaterialList) -> Result<Vec<Shaded>, Fault> {
+                let mut shapes = Vec::new();
+                $(for table in &self.$name {
+                    let (shape, material) = (table.shape()?, materials.find(table.material())?);
+                    shapes.push(Shaded { shape, material, velocity: table.velocity() });
+                })+
+                Ok(shapes)
+            }
+        }
+    };
 }
+shape_kinds!(define_scene_file);
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -82,43 +94,6 @@ struct DirectionalTable {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct SphereTable {
-    center: Vector,
-    radius: Positive,
-    material: Spanned<String>,
-    #[serde(default = "zero")]
-    velocity: Vector,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct BoxTable {
-    lower: Vector,
-    upper: Spanned<Vector>,
-    material: Spanned<String>,
-    #[serde(default = "zero")]
-    velocity: Vector,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct TriangleTable {
-    vertices: Spanned<[Vector; 3]>,
-    material: Spanned<String>,
-    #[serde(default = "zero")]
-    velocity: Vector,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct PlaneTable {
-    point: Vector,
-    normal: Spanned<Vector>,
-    material: Spanned<String>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 struct MeshTable {
     file: Spanned<String>,
     material: Option<Spanned<String>>,
@@ -144,17 +119,13 @@ fn one() -> Positive {
     Positive(1.0)
 }
 
-fn zero() -> Vector {
-    Vector(DVec3::ZERO)
-}
-
 fn yes() -> bool {
     true
 }
 
 impl SceneFile {
     /// Files that the scene names lie in `folder`, unless their paths say otherwise.
-    pub(super) fn into_scene(self, name: &str, folder: &Path) -> Result<Scene, Fault> {
+    pub(super) fn into_scene(mut self, name: &str, folder: &Path) -> Result<Scene, Fault> {
         let size = [self.size[0].0, self.size[1].0];
         let Shot { camera, model, lens, hole, aperture, shutter, iso } =
             Shot::new(&self.camera, size, folder)?;
@@ -163,10 +134,10 @@ impl SceneFile {
         let ambient = self.ambient.as_ref().map_or(Vec3::ZERO, LightColor::radiance);
         let lights = self.lights()?;
         let mut list = MaterialList::default();
-        list.add(self.matte)?;
-        list.add(self.phong)?;
-        list.add(self.mirror)?;
-        list.add(self.emissive)?;
+        list.add(std::mem::take(&mut self.matte))?;
+        list.add(std::mem::take(&mut self.phong))?;
+        list.add(std::mem::take(&mut self.mirror))?;
+        list.add(std::mem::take(&mut self.emissive))?;
 
         let mut scene = Scene {
             name: name.to_owned(),
@@ -186,41 +157,9 @@ impl SceneFile {
             lights,
             materials: Vec::new(),
             material_names: Vec::new(),
-            spheres: Vec::new(),
-            boxes: Vec::new(),
-            triangles: Vec::new(),
-            planes: Vec::new(),
+            shapes: Vec::new(),
         };
-        for table in &self.sphere {
-            let shape = Sphere { center: table.center.0, radius: table.radius.f32() };
-            let material = list.find(&table.material)?;
-            scene.spheres.push(Shaded { shape, material, velocity: table.velocity.f32() });
-        }
-        for table in &self.boxes {
-            let shape = Aabb { lower: table.lower.0, upper: table.upper.get_ref().0 };
-            if !shape.lower.cmplt(shape.upper).all() {
-                return Err(fault(&table.upper, "upper must be greater than lower on every axis"));
-            }
-            let material = list.find(&table.material)?;
-            scene.boxes.push(Shaded { shape, material, velocity: table.velocity.f32() });
-        }
-        for table in &self.triangle {
-            let vertices = [0, 1, 2].map(|corner| table.vertices.get_ref()[corner].0);
-            let shape = Triangle { vertices, normals: None };
-            if !shape.has_area() {
-                return Err(fault(
-                    &table.vertices,
-                    "the three vertices lie on one line, or too near one another",
-                ));
-            }
-            let material = list.find(&table.material)?;
-            scene.triangles.push(Shaded { shape, material, velocity: table.velocity.f32() });
-        }
-        for table in &self.plane {
-            let shape = Plane { point: table.point.0, normal: nonzero(&table.normal)? };
-            let material = list.find(&table.material)?;
-            scene.planes.push(Shaded::still(shape, material));
-        }
+        scene.shapes = self.shapes(&list)?;
         let of_mesh = |table: &MeshTable| table.material.as_ref().map(|name| list.find(name)).transpose();
         let of_meshes: Vec<Option<u32>> = self.mesh.iter().map(of_mesh).collect::<Result<_, _>>()?;
         (scene.materials, scene.material_names) = (list.materials, list.names);
@@ -272,7 +211,7 @@ fn background(table: Option<&Spanned<BackgroundTable>>) -> Result<Background, Fa
     }
 }
 
-fn nonzero(vector: &Spanned<Vector>) -> Result<Vec3, Fault> {
+pub(super) fn nonzero(vector: &Spanned<Vector>) -> Result<Vec3, Fault> {
     match vector.get_ref().f32() {
         Vec3::ZERO => Err(fault(vector, "this vector must not be zero")),
         other => Ok(other),

@@ -149,11 +149,11 @@ impl Mesh {
         }
         let material_of = self.add_materials(scene, material);
         let triangles = faces.iter().zip(own_normals).map(|(face, normals)| Shaded {
-            shape: Triangle { vertices: vertices(face), normals },
+            shape: Triangle { vertices: vertices(face), normals }.into(),
             material: material_of(face.material),
             velocity,
         });
-        scene.triangles.extend(triangles);
+        scene.shapes.extend(triangles);
         scene.files.extend(self.files.iter().cloned());
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! Where the middle of a scene is.
 
-use super::{Scene, Sphere};
+use super::Scene;
 use glam::DVec3;
 
 /// Coordinates this many times as large as the scene lose three bits of their f32, and stay as they are.
@@ -10,18 +10,9 @@ const LARGEST_SHARE: f64 = 8.0;
 /// from each other. It is zero where they are so already, and rounded, so that numbers of few digits keep few.
 ///
 /// The middle is the median of the shapes' centres, so that few that are huge or far away, such as a sky or a
-/// sun, do not move it. Without any but planes, it is where the camera is.
+/// sun, do not move it. Without any that has bounds, it is where the camera is.
 pub(super) fn of(scene: &Scene) -> DVec3 {
-    let spheres = scene.spheres.iter().map(|of| {
-        let Sphere { center, radius } = of.shape;
-        [center - f64::from(radius), center + f64::from(radius)]
-    });
-    let boxes = scene.boxes.iter().map(|of| [of.shape.lower, of.shape.upper]);
-    let triangles = scene.triangles.iter().map(|of| {
-        let [a, b, c] = of.shape.vertices;
-        [a.min(b).min(c), a.max(b).max(c)]
-    });
-    let bounds: Vec<[DVec3; 2]> = spheres.chain(boxes).chain(triangles).collect();
+    let bounds: Vec<[DVec3; 2]> = scene.shapes.iter().filter_map(|of| of.shape.bounds()).collect();
     let (middle, size) = if bounds.is_empty() {
         (scene.camera.eye, scene.camera.eye.distance(scene.camera.look_at))
     } else {

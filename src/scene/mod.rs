@@ -28,14 +28,14 @@ mod words;
 pub use aperture::{Aperture, BLADES};
 pub use aperture_image::{ApertureImage, Mask};
 pub use builtin::{BUILTINS, Builtin};
-pub use bvh::{Bounded, Bvh, Node, Record};
+pub use bvh::{Bvh, Node, Record};
 pub use camera::{Camera, CameraModel, Frame, Hole, Lens};
 pub use file::{Loaded, load, load_with_text};
 pub use light::{Background, Light, LightKind};
 pub use material::{Checker, Material};
 pub use optics::{FRAME_HEIGHT_MM, vfov_of_focal_length};
 pub use preset::{PRESETS, Preset};
-pub use shape::{Aabb, Plane, Shaded, Sphere, Triangle};
+pub use shape::{Box, Plane, Shaded, Shape, Sphere, Triangle};
 pub use view::{Overlay, View};
 
 use glam::{DVec3, Vec3};
@@ -95,14 +95,8 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// What each of them is called.
     pub material_names: Vec<String>,
-    /// Spheres.
-    pub spheres: Vec<Shaded<Sphere>>,
-    /// Axis-aligned boxes.
-    pub boxes: Vec<Shaded<Aabb>>,
-    /// Triangles.
-    pub triangles: Vec<Shaded<Triangle>>,
-    /// Infinite planes.
-    pub planes: Vec<Shaded<Plane>>,
+    /// The shapes, of all kinds.
+    pub shapes: Vec<Shaded>,
 }
 
 /// How long the shutter is open, in seconds, unless the scene says otherwise.
@@ -111,10 +105,15 @@ const DEFAULT_SHUTTER: f32 = 1.0 / 60.0;
 impl Scene {
     /// Whether anything in it moves.
     pub fn moves(&self) -> bool {
-        let moves = |velocity: Vec3| velocity != Vec3::ZERO;
-        self.spheres.iter().any(|of| moves(of.velocity))
-            || self.boxes.iter().any(|of| moves(of.velocity))
-            || self.triangles.iter().any(|of| moves(of.velocity))
+        self.shapes.iter().any(|of| of.velocity != Vec3::ZERO)
+    }
+
+    /// The shapes of a kind, each with all that belongs to it.
+    pub fn of_kind<'a, T: 'a>(&'a self) -> impl Iterator<Item = (&'a T, &'a Shaded)>
+    where
+        &'a T: TryFrom<&'a Shape>,
+    {
+        self.shapes.iter().filter_map(|of| Some((<&T>::try_from(&of.shape).ok()?, of)))
     }
 
     /// Adds a material, and gives its index.

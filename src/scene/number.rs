@@ -28,6 +28,11 @@ pub(super) struct Extent(pub(super) u32);
 #[serde(try_from = "i64")]
 pub(super) struct Count(pub(super) u32);
 
+/// Where a vector may be left out.
+pub(super) fn zero() -> Vector {
+    Vector(DVec3::ZERO)
+}
+
 const LARGEST: f64 = MAX_LENGTH as f64;
 
 impl TryFrom<f64> for Positive {

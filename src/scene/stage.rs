@@ -3,7 +3,7 @@
 use super::mesh::{Mesh, Placement};
 use super::{
     Aperture, Background, Camera, CameraModel, Checker, DEFAULT_SHUTTER, Hole, Lens, Light, LightKind,
-    Material, Plane, Scene, Shaded, View,
+    Material, Plane, Scene, Shaded, Triangle, View,
 };
 use crate::error::Result;
 use glam::{DVec3, Vec3};
@@ -104,10 +104,7 @@ pub(super) fn around(mesh: &Mesh, name: &str) -> Result<(Scene, String)> {
         lights: LIGHTS.to_vec(),
         materials: vec![floor(ground.square)],
         material_names: vec!["ground".into()],
-        spheres: Vec::new(),
-        boxes: Vec::new(),
-        triangles: Vec::new(),
-        planes: vec![Shaded::still(Plane { point: DVec3::Y * ground.height, normal: Vec3::Y }, 0)],
+        shapes: vec![Shaded::still(Plane { point: DVec3::Y * ground.height, normal: Vec3::Y }, 0)],
     };
     mesh.add_to(&mut scene, &placement, None, Vec3::ZERO)?;
     scene.lens = lens_for(&scene);
@@ -197,7 +194,7 @@ fn camera(center: DVec3, half: DVec3) -> Camera {
 /// Focused on the nearest vertex along the axis, and as wide as blurs the farthest one clearly.
 fn lens_for(scene: &Scene) -> Lens {
     let frame = scene.camera.frame();
-    let vertices = scene.triangles.iter().flat_map(|triangle| triangle.shape.vertices);
+    let vertices = scene.of_kind::<Triangle>().flat_map(|(triangle, _)| triangle.vertices);
     let depths = vertices.map(|vertex| frame.axial_depth(scene.camera.eye, vertex));
     let (near, far) =
         depths.fold((f64::INFINITY, 0.0), |(near, far): (f64, f64), depth| (near.min(depth), far.max(depth)));

@@ -2,6 +2,7 @@
 //! fill structs know of maps, sequences and fields only.
 
 use super::file::Fault;
+use super::shape::SHAPE_NAMES;
 use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -19,8 +20,8 @@ enum Form {
     Value,
 }
 
-/// What can stand at the top of a file.
-const TOP: [(&str, Form); 17] = [
+/// What can stand at the top of a file, besides shapes.
+const TOP: [(&str, Form); 13] = [
     ("size", Form::Value),
     ("max_bounces", Form::Value),
     ("camera", Form::One),
@@ -29,16 +30,17 @@ const TOP: [(&str, Form); 17] = [
     ("ambient", Form::One),
     ("point", Form::Many),
     ("directional", Form::Many),
-    ("sphere", Form::Many),
-    ("box", Form::Many),
-    ("triangle", Form::Many),
-    ("plane", Form::Many),
     ("mesh", Form::Many),
     ("matte", Form::Named),
     ("phong", Form::Named),
     ("mirror", Form::Named),
     ("emissive", Form::Named),
 ];
+
+/// What can stand at the top of a file.
+fn top() -> impl Iterator<Item = (&'static str, Form)> {
+    TOP.into_iter().chain(SHAPE_NAMES.iter().map(|name| (name.trim_start_matches("r#"), Form::Many)))
+}
 
 /// Reads a text into what the format's structs say.
 pub(super) fn read<'de, T: Deserialize<'de>>(text: &'de str) -> Result<T, Fault> {
@@ -57,7 +59,7 @@ pub(super) fn read<'de, T: Deserialize<'de>>(text: &'de str) -> Result<T, Fault>
 }
 
 fn form_of(name: &str) -> Option<Form> {
-    TOP.iter().find(|(known, _)| *known == name).map(|(_, form)| *form)
+    top().find(|(known, _)| *known == name).map(|(_, form)| form)
 }
 
 /// How a table is written, with its brackets.
@@ -155,10 +157,10 @@ fn unknown_table(name: &str, value: &DeValue<'_>) -> String {
         return format!("there is no {name} to put tables into; write {}", header(key.get_ref()));
     }
     let near = |known: &str| strsim::jaro_winkler(&known.to_lowercase(), &name.to_lowercase()) > 0.8;
-    if let Some((near, _)) = TOP.iter().find(|(known, _)| near(known)) {
+    if let Some((near, _)) = top().find(|(known, _)| near(known)) {
         return format!("there is no '{name}'; did you mean {}?", header(near));
     }
-    let known: Vec<String> = TOP.iter().map(|(known, _)| header(known)).collect();
+    let known: Vec<String> = top().map(|(known, _)| header(known)).collect();
     format!("there is no '{name}'; there are: {}", known.join(", "))
 }
 

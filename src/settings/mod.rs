@@ -97,7 +97,7 @@ pub struct Estimator {
     pub seed: u32,
     /// Where not 0, a pixel stops once the standard error of its mean luminance, as a share of it or of
     /// 0.05, whichever is more, is below this in every pixel around it, and so is what they can lose of things
-    /// that their samples have not met: see `shaders/include/adaptive.glsl`.
+    /// that their samples have not met: see `shaders/core/adaptive.glsl`.
     pub noise_threshold: f32,
     /// Whether the film keeps second moments, so that its error can be looked at. Adaptive ones always do.
     pub keeps_moments: bool,

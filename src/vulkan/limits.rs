@@ -7,7 +7,7 @@ use ash::vk;
 
 /// How many of each kind of resource the shaders bind at most.
 pub const NEEDED: [(ResourceKind, u32); 3] =
-    [(ResourceKind::Buffer, 12), (ResourceKind::Image, 4), (ResourceKind::Texels, 5)];
+    [(ResourceKind::Buffer, 6), (ResourceKind::Image, 4), (ResourceKind::Texels, 5)];
 
 /// Lavapipe silently leaves every loop of an invocation once it has gone round this often, all loops
 /// counted together. A sample that goes round more often would be wrong.

@@ -7,7 +7,7 @@
 layout(local_size_x = 64) in;
 
 #include "interface.glsl"
-#include "aperture.glsl"
+#include "aperture/aperture.glsl"
 
 struct In {
     vec2 q;

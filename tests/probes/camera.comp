@@ -6,7 +6,7 @@
 layout(local_size_x = 64) in;
 
 #include "interface.glsl"
-#include "camera.glsl"
+#include "camera/thin_lens.glsl"
 
 struct In {
     uvec2 pixel;

@@ -6,7 +6,7 @@
 layout(local_size_x = 64) in;
 
 #include "interface.glsl"
-#include "color.glsl"
+#include "core/color.glsl"
 
 struct In {
     vec3 linear;

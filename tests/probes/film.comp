@@ -6,7 +6,7 @@
 layout(local_size_x = 64) in;
 
 #include "interface.glsl"
-#include "film.glsl"
+#include "core/film.glsl"
 
 struct In {
     vec4 film;

@@ -7,7 +7,7 @@
 layout(local_size_x = 64) in;
 
 #include "interface.glsl"
-#include "intersect.glsl"
+#include "scene/intersect.glsl"
 
 struct In {
     vec3 origin;
@@ -16,10 +16,11 @@ struct In {
 };
 
 struct Out {
-    vec3 normal; // unit length, of the surface, on either side
+    vec3 normal; // unit length, of the surface, as the shape has it
     float distance;
     uint material;
     uint occluded;
+    vec2 uv;
 };
 
 layout(set = 0, binding = BINDING_PROBE_INPUTS, std430) readonly buffer Inputs { In inputs[]; };
@@ -35,7 +36,11 @@ void main() {
         Hit hit = intersect_scene(ray, given_up);
         vec3 position = ray.origin + hit.distance * ray.direction;
         float error;
-        vec3 normal = find_surface(hit, position, error);
-        outputs[i] = Out(normal, hit.distance, hit.material, uint(occluded(ray, given.limit, given_up)));
+        vec3 normal = settle(hit.surface, position, error);
+        bool found = hit.distance < MISS;
+        outputs[i] = Out(
+            found ? normal : vec3(0.0), hit.distance, found ? hit.material : 0u,
+            uint(occluded(ray, given.limit, given_up)), found ? hit.surface.uv : vec2(0.0)
+        );
     }
 }

@@ -7,7 +7,7 @@
 layout(local_size_x = 64) in;
 
 #include "interface.glsl"
-#include "shading.glsl"
+#include "integrator/whitted.glsl"
 
 struct In {
     vec3 origin;

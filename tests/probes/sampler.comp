@@ -6,7 +6,7 @@
 layout(local_size_x = 64) in;
 
 #include "interface.glsl"
-#include "sampling.glsl"
+#include "core/sampling.glsl"
 
 struct In {
     uvec2 pixel;

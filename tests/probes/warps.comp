@@ -6,7 +6,7 @@
 layout(local_size_x = 64) in;
 
 #include "interface.glsl"
-#include "sampling.glsl"
+#include "core/sampling.glsl"
 
 struct In {
     vec2 film;

@@ -124,9 +124,8 @@ fn parse_faults(text: &str) -> Vec<Fault> {
 /// Why a fault cannot be planted: the line that it changes has been changed.
 fn why_stale(root: &Path, fault: &Fault, all: &[Fault]) -> Option<String> {
     let Fault { name, file, from, .. } = fault;
-    let folders = ["shaders", "shaders/include"].map(|folder| root.join(folder).join(file));
-    let texts = folders.iter().filter_map(|path| std::fs::read_to_string(path).ok());
-    let times: usize = texts.map(|text| text.matches(from).count()).sum();
+    let text = std::fs::read_to_string(root.join("shaders").join(file)).unwrap_or_default();
+    let times = text.matches(from).count();
     if from.is_empty() || times != 1 {
         return Some(format!("{name}: '{from}' must stand once in {file}, but stands there {times} times"));
     }

@@ -3,7 +3,7 @@
 #ifndef APERTURE_GLSL
 #define APERTURE_GLSL
 
-#include "sampling.glsl"
+#include "core/sampling.glsl"
 
 layout(constant_id = ID_APERTURE) const uint APERTURE = APERTURE_DISC;
 

@@ -7,7 +7,7 @@
 #define SAMPLING_GLSL
 
 #include "interface.glsl"
-#include "sobol.glsl"
+#include "core/sobol.glsl"
 
 layout(constant_id = ID_SAMPLER) const uint SAMPLER = SAMPLER_RANDOM;
 

@@ -4,10 +4,6 @@
 // Nodes and shapes are records of one size in one buffer, and the children of a node follow one another. So
 // a step of the search fetches one record, whichever it is: where branches are only masked, fetches would
 // be made for both.
-//
-// Where branches are only masked, a node also goes through the arithmetic of a shape. Its packed bytes would be
-// denormal floats there, and Intel's processors take about a hundred times as long for an operation on one. So
-// what is no float lies where a shape has no float either, or is cleared before it is taken for one.
 
 #ifndef BVH_GLSL
 #define BVH_GLSL
@@ -17,13 +13,9 @@ const float BOX_SLACK = 1.0 + 1e-6;
 
 // Nodes on the longest way from the root to a leaf; at each, some children can be left behind.
 layout(constant_id = ID_TREE_DEPTH) const uint TREE_DEPTH = 0u; // 0: no tree
-layout(constant_id = ID_TREE_KINDS) const uint TREE_KINDS = 0u; // the kinds of shapes in it, a bit each
 // A ray that needs more steps is given up: Mesa's software device would end it silently later on.
 layout(constant_id = ID_MOST_TREE_STEPS) const uint MOST_TREE_STEPS = 1024u;
 
-layout(set = 0, binding = BINDING_TREE_RECORDS) uniform usamplerBuffer tree_records; // three texels each: TreeNode or TreeShape
-layout(set = 0, binding = BINDING_TREE_NORMALS) uniform usamplerBuffer tree_normals; // three texels each
-layout(set = 0, binding = BINDING_TREE_VELOCITIES) uniform usamplerBuffer tree_velocities; // of its shapes, a second
 
 // Boxes around the children, whose planes stand on a grid of the node's own.
 struct TreeNode {
@@ -35,34 +27,9 @@ struct TreeNode {
     uint first; // the first child's record
 };
 
-struct TreeShape {
-    vec3 position; // centre, lower corner, or first vertex
-    uint material;
-    vec3 a; // radius in x, upper corner, or first edge
-    uint kind;
-    vec3 b; // second edge
-    uint index; // of its normals
-};
-
 bool has_tree() {
     uint depth = TREE_DEPTH; // the reflection library cannot compare constants
     return depth > 0u;
-}
-
-bool in_tree(uint kind) {
-    return (TREE_KINDS >> kind & 1u) != 0u;
-}
-
-void fetch_record(uint index, out uvec4 record[3]) {
-    int at = int(3u * index);
-    record[0] = texelFetch(tree_records, at);
-    record[1] = texelFetch(tree_records, at + 1);
-    record[2] = texelFetch(tree_records, at + 2);
-}
-
-// The number of a node's children. A shape has the index of its material there, which is smaller.
-uint child_count(uint about) {
-    return about >> 24u;
 }
 
 bool is_node(uvec4 record[3]) {
@@ -73,52 +40,14 @@ TreeNode to_node(uvec4 record[3]) {
     return TreeNode(uintBitsToFloat(record[0].xyz), record[0].w, record[1].xy, record[1].zw, record[2].xy, record[2].w);
 }
 
-// Of a node, a shape of size zero.
-TreeShape to_shape(uvec4 record[3]) {
-    // All ones for a shape, zero for a node. Written without a comparison, for a compiler that finds the branch's
-    // own condition here takes it for true and leaves the mask out.
-    uint if_shape = uint(int(child_count(record[0].w)) - 1 >> 31);
-    return TreeShape(
-        uintBitsToFloat(record[0].xyz), record[0].w, uintBitsToFloat(record[1].xyz & if_shape), record[1].w,
-        uintBitsToFloat(record[2].xyz & if_shape), record[2].w
-    );
-}
-
-// The shape where it is by now.
-TreeShape shape_now(uvec4 record[3], out vec3 way) {
-    TreeShape shape = to_shape(record);
-    way = vec3(0.0);
-    if (SCENE_MOVES == 1u) {
-        way = ray_time * uintBitsToFloat(texelFetch(tree_velocities, int(shape.index)).xyz);
-        shape.position += way;
-        shape.a += shape.kind == SHAPE_BOX ? way : vec3(0.0);
-    }
-    return shape;
-}
-
-Triangle to_triangle(TreeShape shape) {
-    vec3 longest = max(abs(shape.a), abs(shape.b));
-    float size = larger(longest.x, larger(longest.y, longest.z));
-    float offset = dot(cross(shape.a, shape.b), shape.position);
-    return Triangle(shape.position, offset, shape.a, size, shape.b);
-}
-
-float intersect_tree_shape(Ray ray, vec3 inverse_direction, TreeShape shape) {
+float tree_shape_distance(Ray ray, vec3 inverse_direction, ShapeRecord shape) {
     float distance = MISS;
-    if (in_tree(SHAPE_TRIANGLE)) {
-        vec2 barycentric;
-        distance = intersect_triangle(ray, to_triangle(shape), barycentric);
+#define TREE_DISTANCE(KIND, kind_) \
+    if (has_shape(SHAPE_##KIND)) { \
+        float at = kind_##_distance(ray, inverse_direction, shape); \
+        distance = is_of_kind(shape, SHAPE_##KIND, BOUNDED_KINDS) ? at : distance; \
     }
-    if (in_tree(SHAPE_SPHERE)) {
-        float at_sphere = intersect_sphere(ray, Sphere(shape.position, shape.a.x));
-        distance = shape.kind == SHAPE_SPHERE ? at_sphere : distance;
-    }
-    if (in_tree(SHAPE_BOX)) {
-        vec3 normal;
-        float offset;
-        float at_box = intersect_box(ray, inverse_direction, Box(shape.position, shape.a), normal, offset);
-        distance = shape.kind == SHAPE_BOX ? at_box : distance;
-    }
+    FOR_EACH_BOUNDED_KIND(TREE_DISTANCE)
     return distance;
 }
 
@@ -220,8 +149,7 @@ float search_tree(Ray ray, vec3 inverse_direction, float limit, bool any_will_do
             first = descends ? node.first : first;
             children = descends ? met : children;
         } else {
-            vec3 way;
-            float at = intersect_tree_shape(ray, inverse_direction, shape_now(record, way));
+            float at = tree_shape_distance(ray, inverse_direction, shape_now(to_shape(record)));
             bool closer = at < distance;
             nearest = closer ? index : nearest;
             distance = closer ? at : distance;
@@ -238,46 +166,6 @@ float search_tree(Ray ray, vec3 inverse_direction, float limit, bool any_will_do
     } while (searching && steps < MOST_TREE_STEPS);
     given_up = given_up || searching;
     return distance < limit ? distance : MISS;
-}
-
-// The unit normal of a triangle with normals at its corners: straight between them, on the side of the
-// triangle's own, or that one where they cancel out.
-vec3 interpolated_normal(uint index, vec2 barycentric, vec3 own) {
-    vec3 sum = vec3(0.0);
-    vec3 weights = vec3(1.0 - barycentric.x - barycentric.y, barycentric);
-    [[unroll]] for (uint corner = 0u; corner < 3u; ++corner) {
-        sum += weights[corner] * uintBitsToFloat(texelFetch(tree_normals, int(3u * index + corner)).xyz);
-    }
-    sum = sum == vec3(0.0) ? own : sum;
-    return normalize(dot(sum, own) < 0.0 ? -sum : sum);
-}
-
-// The nearest hit with what is in the tree.
-Hit intersect_tree(Ray ray, vec3 inverse_direction, inout bool given_up) {
-    uint index = 0u;
-    float distance = search_tree(ray, inverse_direction, MISS, false, index, given_up);
-    uvec4 record[3];
-    fetch_record(index, record);
-    vec3 way;
-    TreeShape shape = shape_now(record, way);
-    Hit hit = Hit(distance, shape.material, -shape.position, 1.0, shape.a.x, 0.0, vec3(0.0), way);
-    if (in_tree(SHAPE_BOX) && shape.kind == SHAPE_BOX) {
-        intersect_box(ray, inverse_direction, Box(shape.position, shape.a), hit.normal, hit.offset);
-        hit.curvature = 0.0;
-    }
-    if (in_tree(SHAPE_TRIANGLE) && shape.kind == SHAPE_TRIANGLE) {
-        Triangle triangle = to_triangle(shape);
-        hit.normal = cross(triangle.edge1, triangle.edge2);
-        hit.curvature = 0.0;
-        hit.offset = triangle.offset;
-        hit.size = triangle.size;
-        if (in_tree(SHAPE_SMOOTH)) {
-            vec2 barycentric;
-            intersect_triangle(ray, triangle, barycentric);
-            hit.shading_normal = interpolated_normal(shape.index, barycentric, hit.normal);
-        }
-    }
-    return hit;
 }
 
 #endif

@@ -3,9 +3,10 @@
 #ifndef TRACE_BATCH_GLSL
 #define TRACE_BATCH_GLSL
 
-#include "adaptive.glsl"
-#include "shading.glsl"
-#include "aperture.glsl"
+#include "camera/thin_lens.glsl"
+#include "core/adaptive.glsl"
+#include "integrator/whitted.glsl"
+#include "aperture/aperture.glsl"
 
 struct TracePush {
     Camera camera;

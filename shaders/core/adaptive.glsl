@@ -3,7 +3,7 @@
 #ifndef ADAPTIVE_GLSL
 #define ADAPTIVE_GLSL
 
-#include "film.glsl"
+#include "core/film.glsl"
 
 layout(constant_id = ID_HAS_MOMENTS) const uint HAS_MOMENTS = 0u;
 

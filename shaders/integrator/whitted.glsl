@@ -3,7 +3,7 @@
 #ifndef SHADING_GLSL
 #define SHADING_GLSL
 
-#include "intersect.glsl"
+#include "scene/intersect.glsl"
 
 const float INVERSE_PI = 0.318309886;
 
@@ -105,12 +105,12 @@ vec3 radiance(Ray ray, uint max_bounces, inout uint rays, out bool given_up) {
         }
         SurfacePoint at;
         at.position = ray.origin + hit.distance * ray.direction;
-        at.normal = find_surface(hit, at.position, at.error);
+        at.normal = settle(hit.surface, at.position, at.error);
         at.on_shape = at.position;
         if (SCENE_MOVES == 1u) {
-            at.on_shape -= hit.way;
+            at.on_shape -= hit.displacement;
         }
-        at.shading_normal = hit.shading_normal == vec3(0.0) ? at.normal : hit.shading_normal;
+        at.shading_normal = hit.surface.shading_normal == vec3(0.0) ? at.normal : hit.surface.shading_normal;
         bool from_behind = dot(at.normal, ray.direction) > 0.0;
         at.normal = from_behind ? -at.normal : at.normal;
         at.shading_normal = from_behind ? -at.shading_normal : at.shading_normal;

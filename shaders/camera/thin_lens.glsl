@@ -6,10 +6,7 @@
 #ifndef CAMERA_GLSL
 #define CAMERA_GLSL
 
-struct Ray {
-    vec3 origin;
-    vec3 direction; // unit length
-};
+#include "core/ray.glsl"
 
 struct Camera {
     vec3 eye;

@@ -1,0 +1,102 @@
+// The nearest shape along a ray, of those in the list: each is tried. The list has the kinds one after the other, and
+// the ends of their ranges are specialization constants, so that each loop knows its kind and how often it goes round.
+
+#ifndef LIST_GLSL
+#define LIST_GLSL
+
+void keep_nearer(inout Nearest nearest, float distance, uint i) {
+    if (distance < nearest.distance) {
+        nearest = Nearest(distance, LIST_BEGIN + i);
+    }
+}
+
+// A bounded shape of the list where it is by now.
+#define LISTED_NOW(kind_) \
+    ShapeRecord shape = get_listed(i); \
+    if (SCENE_MOVES == 1u) { \
+        move_##kind_(shape, ray_time * get_velocity(i, shape)); \
+    }
+
+void find_bounded(Ray ray, vec3 inverse_direction, inout Nearest nearest) {
+#define FIND_BOUNDED(KIND, kind_) \
+    [[unroll]] for (uint i = KIND##_BEGIN; i < KIND##_END; ++i) { \
+        LISTED_NOW(kind_) \
+        keep_nearer(nearest, kind_##_distance(ray, inverse_direction, shape), i); \
+    }
+    FOR_EACH_BOUNDED_KIND(FIND_BOUNDED)
+}
+
+void find_unbounded(Ray ray, vec3 inverse_direction, inout Nearest nearest) {
+#define FIND_UNBOUNDED(KIND, kind_) \
+    for (uint i = KIND##_BEGIN; i < KIND##_END; ++i) { \
+        keep_nearer(nearest, kind_##_distance(ray, inverse_direction, get_listed(i)), i); \
+    }
+    FOR_EACH_UNBOUNDED_KIND(FIND_UNBOUNDED)
+}
+
+// A shape of a kept list, without a fetch: each kind is looked for among its own, and only for what it needs. The
+// index differs from invocation to invocation. A scene with a kept list and no tree has LIST_BEGIN = 0.
+Met met_in_list(Ray ray, vec3 inverse_direction, uint index, vec3 position) {
+    Met met = Met(NO_SURFACE, 0u, vec3(0.0));
+#define LOOK_FOR(KIND) \
+    ShapeRecord shape = kept_shapes[KIND##_BEGIN]; \
+    vec3 displacement = vec3(0.0); \
+    [[unroll]] for (uint i = KIND##_BEGIN + 1u; i < KIND##_END; ++i) { \
+        if (index == i) { \
+            shape = kept_shapes[i]; \
+        } \
+    }
+#define BOUNDED_SURFACE(KIND, kind_) \
+    if (has_shape(SHAPE_##KIND)) { \
+        LOOK_FOR(KIND) \
+        if (SCENE_MOVES == 1u) { \
+            displacement = kept_velocities[KIND##_BEGIN]; \
+            [[unroll]] for (uint i = KIND##_BEGIN + 1u; i < KIND##_END; ++i) { \
+                if (index == i) { \
+                    displacement = kept_velocities[i]; \
+                } \
+            } \
+            displacement *= ray_time; \
+            move_##kind_(shape, displacement); \
+        } \
+        Surface surface = kind_##_surface(ray, inverse_direction, shape, position); \
+        if (index >= KIND##_BEGIN) { \
+            met = Met(surface, shape.material, displacement); \
+        } \
+    }
+#define UNBOUNDED_SURFACE(KIND, kind_) \
+    if (has_shape(SHAPE_##KIND)) { \
+        LOOK_FOR(KIND) \
+        Surface surface = kind_##_surface(ray, inverse_direction, shape, position); \
+        if (index >= KIND##_BEGIN) { \
+            met = Met(surface, shape.material, displacement); \
+        } \
+    }
+    FOR_EACH_BOUNDED_KIND(BOUNDED_SURFACE)
+    FOR_EACH_UNBOUNDED_KIND(UNBOUNDED_SURFACE)
+    return met;
+}
+
+// For shadows: the distances alone.
+float bounded_distance(Ray ray, vec3 inverse_direction) {
+    float nearest = MISS;
+#define BOUNDED_DISTANCE(KIND, kind_) \
+    [[unroll]] for (uint i = KIND##_BEGIN; i < KIND##_END; ++i) { \
+        LISTED_NOW(kind_) \
+        nearest = smaller(nearest, kind_##_distance(ray, inverse_direction, shape)); \
+    }
+    FOR_EACH_BOUNDED_KIND(BOUNDED_DISTANCE)
+    return nearest;
+}
+
+float unbounded_distance(Ray ray, vec3 inverse_direction) {
+    float nearest = MISS;
+#define UNBOUNDED_DISTANCE(KIND, kind_) \
+    for (uint i = KIND##_BEGIN; i < KIND##_END; ++i) { \
+        nearest = smaller(nearest, kind_##_distance(ray, inverse_direction, get_listed(i))); \
+    }
+    FOR_EACH_UNBOUNDED_KIND(UNBOUNDED_DISTANCE)
+    return nearest;
+}
+
+#endif

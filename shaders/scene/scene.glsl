@@ -1,0 +1,143 @@
+// The scene as the shaders see it, in coordinates whose origin is near its middle.
+
+#ifndef SCENE_GLSL
+#define SCENE_GLSL
+
+#include "kinds.glsl"
+
+struct Material {
+    vec3 color;
+    float ka;
+    vec3 odd_color; // the checker's second colour
+    float kd;
+    vec3 reflectance; // kr * colour of the mirror
+    float ks;
+    vec3 emission;
+    float exponent;
+    vec3 checker_phase; // where the scene's own origin lies in the checker, as seen from the device's
+    float inverse_checker_size; // 0: one colour
+};
+
+struct Light {
+    vec3 radiance;
+    uint is_directional;
+    vec3 position_or_direction; // a direction points from the surface to the light
+};
+
+struct Environment {
+    vec3 horizon;
+    vec3 zenith;
+    vec3 ambient; // radiance
+    float reach; // every shape but planes lies within this distance of the origin, at any time
+};
+
+// The numbers of things are specialization constants, so that loops over them can unroll. Of shapes there are the
+// ends of the ranges of each kind: see kinds.glsl.
+layout(constant_id = ID_LIGHT_COUNT) const uint LIGHT_COUNT = 1u;
+layout(constant_id = ID_SHADOW_LIGHT_COUNT) const uint SHADOW_LIGHT_COUNT = 1u; // the first so many lights cast shadows
+layout(constant_id = ID_MATERIAL_COUNT) const uint MATERIAL_COUNT = 1u;
+// Whether the scene is copied to variables before any control flow. Mesa's software device loads from
+// a buffer lane by lane inside loops and branches, and once for all lanes outside of them, which makes
+// rays about three times as fast. A GPU would run out of registers.
+layout(constant_id = ID_SCENE_IS_KEPT) const uint SCENE_IS_KEPT = 0u;
+
+// The kinds of shapes there are, a bit each: what is for others is left out.
+layout(constant_id = ID_SHAPE_KINDS) const uint SHAPE_KINDS = 0u;
+// Whether any shape moves.
+layout(constant_id = ID_SCENE_MOVES) const uint SCENE_MOVES = 0u;
+// Whether checkers have a phase.
+layout(constant_id = ID_SCENE_IS_SHIFTED) const uint SCENE_IS_SHIFTED = 0u;
+
+// The nodes and shapes of the tree, if there is one, then the shapes of the list: three texels each.
+layout(set = 0, binding = BINDING_RECORDS) uniform usamplerBuffer records;
+// Of the shapes, by their index: scene units a second.
+layout(set = 0, binding = BINDING_VELOCITIES) uniform usamplerBuffer velocities;
+layout(constant_id = ID_LIST_BEGIN) const uint LIST_BEGIN = 0u; // the record of the list's first shape
+layout(set = 0, binding = BINDING_MATERIALS, std430) readonly buffer Materials { Material materials[]; };
+layout(set = 0, binding = BINDING_LIGHTS, std430) readonly buffer Lights { Light lights[]; };
+layout(set = 0, binding = BINDING_ENVIRONMENT, std430) readonly buffer EnvironmentBuffer { Environment environment; };
+
+
+void fetch_record(uint index, out uvec4 record[3]) {
+    int at = int(3u * index);
+    record[0] = texelFetch(records, at);
+    record[1] = texelFetch(records, at + 1);
+    record[2] = texelFetch(records, at + 2);
+}
+
+// The number of a node's children. A shape has the index of its material there, which is smaller.
+uint child_count(uint about) {
+    return about >> 24u;
+}
+
+// Of a node, a shape of size zero.
+//
+// Where branches are only masked, a node also goes through the arithmetic of a shape. Its packed bytes would be
+// denormal floats there, and Intel's processors take about a hundred times as long for an operation on one. So
+// what is no float lies where a shape has no float either, or is cleared before it is taken for one.
+ShapeRecord to_shape(uvec4 record[3]) {
+    // All ones for a shape, zero for a node. Written without a comparison, for a compiler that finds the branch's
+    // own condition here takes it for true and leaves the mask out.
+    uint if_shape = uint(int(child_count(record[0].w)) - 1 >> 31);
+    return ShapeRecord(
+        uintBitsToFloat(record[0].xyz), record[0].w, uintBitsToFloat(record[1].xyz & if_shape), record[1].w,
+        uintBitsToFloat(record[2].xyz & if_shape), record[2].w
+    );
+}
+
+ShapeRecord fetch_shape(uint index) {
+    uvec4 record[3];
+    fetch_record(index, record);
+    return to_shape(record);
+}
+
+vec3 fetch_velocity(uint index) {
+    return uintBitsToFloat(texelFetch(velocities, int(index)).xyz);
+}
+
+// How many of each are copied: none where the scene is not, for some compilers find room for every element of
+// an array, used or not.
+const uint KEPT_SHAPES = SHAPES_END * SCENE_IS_KEPT;
+const uint KEPT_MATERIALS = MATERIAL_COUNT * SCENE_IS_KEPT;
+const uint KEPT_LIGHTS = LIGHT_COUNT * SCENE_IS_KEPT;
+const uint KEPT_MOVING = BOUNDED_SHAPES_END * SCENE_IS_KEPT * SCENE_MOVES;
+
+// The copies. There is one element to spare, for there are no empty arrays.
+ShapeRecord kept_shapes[KEPT_SHAPES + 1u];
+Material kept_materials[KEPT_MATERIALS + 1u];
+Light kept_lights[KEPT_LIGHTS + 1u];
+vec3 kept_velocities[KEPT_MOVING + 1u];
+Environment kept_environment;
+
+// To be called first thing in main().
+void keep_scene() {
+    if (SCENE_IS_KEPT == 0u) {
+        return;
+    }
+    [[unroll]] for (uint i = 0u; i < KEPT_SHAPES; ++i) { kept_shapes[i] = fetch_shape(LIST_BEGIN + i); }
+    [[unroll]] for (uint i = 0u; i < KEPT_MATERIALS; ++i) { kept_materials[i] = materials[i]; }
+    [[unroll]] for (uint i = 0u; i < KEPT_LIGHTS; ++i) { kept_lights[i] = lights[i]; }
+    [[unroll]] for (uint i = 0u; i < KEPT_MOVING; ++i) { kept_velocities[i] = fetch_velocity(kept_shapes[i].index); }
+    kept_environment = environment;
+}
+
+ShapeRecord get_listed(uint i) { if (SCENE_IS_KEPT == 1u) { return kept_shapes[i]; } return fetch_shape(LIST_BEGIN + i); }
+vec3 get_velocity(uint i, ShapeRecord shape) { if (SCENE_IS_KEPT == 1u) { return kept_velocities[i]; } return fetch_velocity(shape.index); }
+Light get_light(uint i) { if (SCENE_IS_KEPT == 1u) { return kept_lights[i]; } return lights[i]; }
+Environment get_environment() { if (SCENE_IS_KEPT == 1u) { return kept_environment; } return environment; }
+
+// The index differs from invocation to invocation.
+Material get_material(uint index) {
+    if (SCENE_IS_KEPT == 0u) {
+        return materials[index];
+    }
+    Material material = kept_materials[0];
+    [[unroll]] for (uint i = 1u; i < KEPT_MATERIALS; ++i) {
+        if (index == i) {
+            material = kept_materials[i];
+        }
+    }
+    return material;
+}
+
+#endif

@@ -1,0 +1,57 @@
+// An axis-aligned box: position is its lower corner, a its upper one. On a face across an axis, u and v go along the
+// next two axes, from 0 to 1.
+
+#ifndef BOX_GLSL
+#define BOX_GLSL
+
+#include "shape/record.glsl"
+
+// Where the ray enters and leaves the box's three slabs. Per axis, front is the coordinate of the face that it
+// meets first, and back that of the other one.
+struct Slabs {
+    vec3 front;
+    vec3 back;
+    vec3 enter;
+    vec3 leave;
+    float near;
+    float far;
+};
+
+Slabs slabs_of(Ray ray, vec3 inverse_direction, ShapeRecord box) {
+    Slabs slabs;
+    bvec3 upwards = greaterThan(inverse_direction, vec3(0.0));
+    slabs.front = mix(box.a, box.position, upwards);
+    slabs.back = mix(box.position, box.a, upwards);
+    slabs.enter = (slabs.front - ray.origin) * inverse_direction;
+    slabs.leave = (slabs.back - ray.origin) * inverse_direction;
+    slabs.near = larger(slabs.enter.x, larger(slabs.enter.y, slabs.enter.z));
+    slabs.far = smaller(slabs.leave.x, smaller(slabs.leave.y, slabs.leave.z));
+    return slabs;
+}
+
+float box_distance(Ray ray, vec3 inverse_direction, ShapeRecord box) {
+    Slabs slabs = slabs_of(ray, inverse_direction, box);
+    float distance = slabs.near > 0.0 ? slabs.near : slabs.far;
+    return slabs.near <= slabs.far && slabs.far > 0.0 ? distance : MISS;
+}
+
+// Of the face that is met, whose normal points outwards along an axis.
+Surface box_surface(Ray ray, vec3 inverse_direction, ShapeRecord box, vec3 position) {
+    Slabs slabs = slabs_of(ray, inverse_direction, box);
+    bool outside = slabs.near > 0.0;
+    vec3 axis = outside ? vec3(equal(slabs.enter, vec3(slabs.near))) : vec3(equal(slabs.leave, vec3(slabs.far)));
+    // A ray that goes up an axis enters through the lower face, and leaves through the upper one.
+    bvec3 upwards = greaterThan(inverse_direction, vec3(0.0));
+    axis *= mix(vec3(1.0), vec3(-1.0), outside ? upwards : not(upwards));
+    float offset = dot(axis, outside ? slabs.front : slabs.back);
+    vec3 place = (position - box.position) / (box.a - box.position);
+    vec2 uv = axis.x != 0.0 ? place.yz : axis.y != 0.0 ? place.zx : place.xy;
+    return Surface(axis, offset, false, 0.0, vec3(0.0), uv);
+}
+
+void move_box(inout ShapeRecord box, vec3 displacement) {
+    box.position += displacement;
+    box.a += displacement;
+}
+
+#endif

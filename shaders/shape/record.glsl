@@ -1,0 +1,42 @@
+// What every kind of shape has in common. A kind is a file beside this one with two functions:
+//
+//   float KIND_distance(Ray ray, vec3 inverse_direction, ShapeRecord shape)
+//       The distance along the ray to the nearest point of the shape before its origin; MISS if there is none.
+//       inverse_direction is safe_inverse(ray.direction).
+//   Surface KIND_surface(Ray ray, vec3 inverse_direction, ShapeRecord shape, vec3 position)
+//       The surface at that point. The position may be off as far as the ray is long.
+//
+// A kind that can move also has
+//
+//   void move_KIND(inout ShapeRecord shape, vec3 displacement)
+
+#ifndef RECORD_GLSL
+#define RECORD_GLSL
+
+#include "core/ray.glsl"
+
+// A shape as it lies in lists and in the tree. What position, a and b mean is up to the kind.
+struct ShapeRecord {
+    vec3 position;
+    uint material;
+    vec3 a;
+    uint kind;
+    vec3 b;
+    uint index; // of its velocity, and in the tree of its corner normals
+};
+
+// The surface of a shape near a point x of it. Where it is flat, its points have dot(across, x) = offset. Where it is
+// curved, across goes from the centre, or from the nearest point of the axis, to x, and the points of the surface
+// are at the distance offset from there.
+struct Surface {
+    vec3 across; // of any length
+    float offset;
+    bool is_curved;
+    float size; // of the numbers that it was computed from, along an axis
+    vec3 shading_normal; // of unit length; zero: the surface's own
+    vec2 uv; // where on the shape: see the kinds
+};
+
+const Surface NO_SURFACE = Surface(vec3(0.0), 0.0, false, 0.0, vec3(0.0), vec2(0.0));
+
+#endif

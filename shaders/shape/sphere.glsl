@@ -1,0 +1,35 @@
+// A sphere: position is its centre, a.x its radius. u goes around the y axis from z = 0, x < 0 on, v from the south
+// pole to the north pole, both from 0 to 1.
+
+#ifndef SPHERE_GLSL
+#define SPHERE_GLSL
+
+#include "shape/record.glsl"
+
+// The quadratic with the discriminant taken from the closest approach, which keeps its digits for
+// small and far spheres: E. Haines et al., Ray Tracing Gems, chapter 7.
+float sphere_distance(Ray ray, vec3 inverse_direction, ShapeRecord sphere) {
+    float radius = sphere.a.x;
+    vec3 to_origin = ray.origin - sphere.position;
+    float along = -dot(to_origin, ray.direction);
+    vec3 closest = to_origin + along * ray.direction;
+    float discriminant = radius * radius - dot(closest, closest);
+    float half_chord = sqrt(larger(discriminant, 0.0));
+    float near = along - half_chord;
+    float far = along + half_chord;
+    float distance = near > 0.0 ? near : far;
+    return discriminant > 0.0 && distance > 0.0 ? distance : MISS;
+}
+
+Surface sphere_surface(Ray ray, vec3 inverse_direction, ShapeRecord sphere, vec3 position) {
+    float radius = sphere.a.x;
+    vec3 across = position - sphere.position;
+    vec2 uv = vec2(0.5 + atan(across.z, across.x) / 6.28318531, 0.5 + asin(clamp(across.y / radius, -1.0, 1.0)) / 3.14159265);
+    return Surface(across, radius, true, radius, vec3(0.0), uv);
+}
+
+void move_sphere(inout ShapeRecord sphere, vec3 displacement) {
+    sphere.position += displacement;
+}
+
+#endif

@@ -1,0 +1,67 @@
+// A triangle, seen from both sides: position is its first corner, a and b are the edges from there to the second and
+// the third, the first being the one opposite the longest edge. u and v are the barycentric coordinates of the
+// other two.
+
+#ifndef TRIANGLE_GLSL
+#define TRIANGLE_GLSL
+
+#include "shape/record.glsl"
+
+// Normals of the tree's triangles at their corners, three texels each; zero at each stands for the triangle's own.
+layout(set = 0, binding = BINDING_CORNER_NORMALS) uniform usamplerBuffer corner_normals;
+
+// Whether any triangle has such normals.
+layout(constant_id = ID_HAS_CORNER_NORMALS) const uint HAS_CORNER_NORMALS = 0u;
+
+// T. Moeller and B. Trumbore, JGT 2(1), 1997, both sides. barycentric belongs to the second and third corner.
+float intersect_triangle(Ray ray, ShapeRecord triangle, out vec2 barycentric) {
+    vec3 h = cross(ray.direction, triangle.b);
+    float determinant = dot(triangle.a, h);
+    float inverse_determinant = 1.0 / determinant;
+    vec3 s = ray.origin - triangle.position;
+    float b1 = dot(s, h) * inverse_determinant;
+    vec3 q = cross(s, triangle.a);
+    float b2 = dot(ray.direction, q) * inverse_determinant;
+    float distance = dot(triangle.b, q) * inverse_determinant;
+    barycentric = vec2(b1, b2);
+    // A driver may assume that there are no infinities and no NaNs: a ray in the triangle's plane is seen by the
+    // determinant.
+    return determinant != 0.0 && b1 >= 0.0 && b2 >= 0.0 && b1 + b2 <= 1.0 && distance > 0.0 && distance < MISS ? distance : MISS;
+}
+
+float triangle_distance(Ray ray, vec3 inverse_direction, ShapeRecord triangle) {
+    vec2 barycentric;
+    return intersect_triangle(ray, triangle, barycentric);
+}
+
+// The unit normal of a triangle with normals at its corners: straight between them, on the side of the
+// triangle's own, or that one where they cancel out.
+vec3 interpolated_normal(uint index, vec2 barycentric, vec3 own) {
+    vec3 sum = vec3(0.0);
+    vec3 weights = vec3(1.0 - barycentric.x - barycentric.y, barycentric);
+    [[unroll]] for (uint corner = 0u; corner < 3u; ++corner) {
+        sum += weights[corner] * uintBitsToFloat(texelFetch(corner_normals, int(3u * index + corner)).xyz);
+    }
+    sum = sum == vec3(0.0) ? own : sum;
+    return normalize(dot(sum, own) < 0.0 ? -sum : sum);
+}
+
+Surface triangle_surface(Ray ray, vec3 inverse_direction, ShapeRecord triangle, vec3 position) {
+    vec3 across = cross(triangle.a, triangle.b);
+    vec3 longest = max(abs(triangle.a), abs(triangle.b));
+    float size = larger(longest.x, larger(longest.y, longest.z));
+    float offset = dot(across, triangle.position);
+    vec2 barycentric;
+    intersect_triangle(ray, triangle, barycentric);
+    vec3 shading_normal = vec3(0.0);
+    if (HAS_CORNER_NORMALS == 1u) {
+        shading_normal = interpolated_normal(triangle.index, barycentric, across);
+    }
+    return Surface(across, offset, false, size, shading_normal, barycentric);
+}
+
+void move_triangle(inout ShapeRecord triangle, vec3 displacement) {
+    triangle.position += displacement;
+}
+
+#endif

@@ -1,0 +1,51 @@
+//! Shapes as the shaders want them: one match arm a kind.
+
+use super::scene::{float, floats};
+use crate::interface::shape;
+use crate::scene::{Shaded, Shape};
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+
+/// `ShapeRecord` of shape/record.glsl, in the list and in the tree.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct ShapeRecord {
+    pub position: [f32; 3],
+    pub material: u32,
+    pub a: [f32; 3],
+    pub kind: u32,
+    pub b: [f32; 3],
+    pub index: u32,
+}
+
+impl ShapeRecord {
+    /// The shaders' number of a shape's kind.
+    pub fn kind(of: &Shape) -> u32 {
+        match of {
+            Shape::Sphere(_) => shape::SPHERE,
+            Shape::Box(_) => shape::BOX,
+            Shape::Triangle(_) => shape::TRIANGLE,
+            Shape::Plane(_) => shape::PLANE,
+        }
+    }
+
+    /// Of a shape in the device's coordinates. `index` is that of its velocity, and of its corner normals in the
+    /// tree.
+    pub fn new(of: &Shaded, index: u32) -> Self {
+        let (position, a, b) = match &of.shape {
+            Shape::Sphere(sphere) => (sphere.center.as_vec3(), Vec3::splat(sphere.radius), Vec3::ZERO),
+            Shape::Box(of) => (of.lower.as_vec3(), of.upper.as_vec3(), Vec3::ZERO),
+            Shape::Triangle(triangle) => {
+                let [a, b, c] = triangle.from_widest_corner().vertices.map(|vertex| vertex.as_vec3());
+                (a, b - a, c - a)
+            }
+            Shape::Plane(plane) => {
+                let normal = plane.normal.as_dvec3().normalize();
+                let offset = float(normal.dot(plane.point) as f32);
+                (normal.as_vec3(), Vec3::X * offset, Vec3::ZERO)
+            }
+        };
+        let [position, a, b] = [position, a, b].map(floats);
+        Self { position, material: of.material, a, kind: Self::kind(&of.shape), b, index }
+    }
+}

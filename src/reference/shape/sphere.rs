@@ -1,0 +1,22 @@
+//! |o + t d - c|^2 = r^2.
+
+use super::{Crossing, Ray};
+use crate::scene::Sphere;
+use glam::DVec2;
+use std::f64::consts::{PI, TAU};
+
+pub(super) fn crossing(sphere: &Sphere, ray: Ray, least: f64) -> Option<Crossing> {
+    let radius = f64::from(sphere.radius);
+    let from_center = ray.origin - sphere.center;
+    let half_b = from_center.dot(ray.direction);
+    let discriminant = half_b * half_b - (from_center.length_squared() - radius * radius);
+    if discriminant <= 0.0 {
+        return None;
+    }
+    let root = discriminant.sqrt();
+    let distance = [-half_b - root, -half_b + root].into_iter().find(|distance| *distance > least)?;
+    let normal = (ray.origin + distance * ray.direction - sphere.center) / radius;
+    // Longitude and latitude.
+    let uv = DVec2::new(0.5 + normal.z.atan2(normal.x) / TAU, 0.5 + normal.y.clamp(-1.0, 1.0).asin() / PI);
+    Some(Crossing::flat(distance, normal, uv))
+}

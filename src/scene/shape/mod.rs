@@ -1,0 +1,174 @@
+//! Shapes, in world coordinates and scene units. A kind is a file here, with its plain values, its table of the scene
+//! file, and what a tree and a camera must know of it; `shape_kinds` lists them.
+
+mod r#box;
+mod plane;
+mod sphere;
+mod triangle;
+
+pub use r#box::Box;
+pub use plane::Plane;
+pub use sphere::Sphere;
+pub use triangle::Triangle;
+
+pub(super) use r#box::BoxTable;
+pub(super) use plane::PlaneTable;
+pub(super) use sphere::SphereTable;
+pub(super) use triangle::TriangleTable;
+
+use super::file::Fault;
+use glam::{DMat3, DVec3, Vec3};
+use toml::Spanned;
+
+/// Calls a macro with the list of all kinds: a kind, its table, and the name of that in scene files.
+macro_rules! shape_kinds {
+    ($callback:ident) => {
+        $callback! {
+            (Sphere, SphereTable, sphere),
+            (Box, BoxTable, r#box),
+            (Triangle, TriangleTable, triangle),
+            (Plane, PlaneTable, plane),
+        }
+    };
+}
+pub(super) use shape_kinds;
+
+/// A shape with the index of its material.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shaded {
+    /// The shape.
+    pub shape: Shape,
+    /// Index into [`super::Scene::materials`].
+    pub material: u32,
+    /// How it moves, in scene units a second. It is where the scene file says in the middle of the exposure,
+    /// and takes its checker along. What has no bounds stands still.
+    pub velocity: Vec3,
+}
+
+/// What every kind of shape says of itself.
+pub(super) trait Kind: Copy {
+    /// The same shape in coordinates with this origin.
+    fn seen_from(self, origin: DVec3) -> Self;
+
+    /// The corners of the box around it with the smallest and the largest coordinates. None where it has no end.
+    fn bounds(&self) -> Option<[DVec3; 2]>;
+
+    /// The distance of its farthest point from the origin.
+    fn reach(&self) -> f64;
+
+    /// Points whose convex hull holds it. `axes` are those that a box around it should be along, if it may choose.
+    fn corners(&self, axes: DMat3) -> Corners;
+
+    /// Three vectors that only shapes of this kind have in common that cover one another, as f32 has them.
+    fn place(&self) -> [Vec3; 3];
+}
+
+/// The table of a kind of shape.
+pub(super) trait ShapeTable {
+    /// The shape.
+    ///
+    /// # Errors
+    /// Where there is no such shape.
+    fn shape(&self) -> Result<Shape, Fault>;
+
+    /// The name of its material.
+    fn material(&self) -> &Spanned<String>;
+
+    /// In scene units a second.
+    fn velocity(&self) -> Vec3;
+}
+
+/// Up to eight points.
+pub struct Corners {
+    points: [DVec3; 8],
+    count: usize,
+}
+
+impl Corners {
+    pub(super) fn new<const N: usize>(points: [DVec3; N]) -> Self {
+        let mut all = [DVec3::ZERO; 8];
+        all[..N].copy_from_slice(&points);
+        Self { points: all, count: N }
+    }
+
+    /// Those of a parallelepiped around `center`, whose edges are twice the columns of `half`.
+    pub(super) fn of_box(center: DVec3, half: DMat3) -> Self {
+        let side = |corner: usize, axis: usize| if corner >> axis & 1 == 0 { -1.0 } else { 1.0 };
+        let points = std::array::from_fn(|corner| {
+            center + half * DVec3::new(side(corner, 0), side(corner, 1), side(corner, 2))
+        });
+        Self { points, count: 8 }
+    }
+
+    /// The points.
+    pub fn iter(&self) -> impl Iterator<Item = DVec3> {
+        self.points[..self.count].iter().copied()
+    }
+}
+
+macro_rules! define_shape {
+    ($(($kind:ident, $table:ident, $name:ident),)+) => {
+        /// The names of the kinds in scene files, as identifiers of Rust.
+        pub(super) const SHAPE_NAMES: &[&str] = &[$(stringify!($name)),+];
+
+        /// A shape of any kind.
+        #[derive(Debug, Clone, Copy, PartialEq)]
+        pub enum Shape {
+            $(#[doc = concat!("See [`", stringify!($kind), "`].")] $kind($kind),)+
+        }
+
+        impl Shape {
+            /// The same shape in coordinates with this origin.
+            pub fn seen_from(self, origin: DVec3) -> Self {
+                match self { $(Self::$kind(shape) => Self::$kind(shape.seen_from(origin)),)+ }
+            }
+
+            /// The corners of the box around it with the smallest and the largest coordinates. None where it has
+            /// no end.
+            pub fn bounds(&self) -> Option<[DVec3; 2]> {
+                match self { $(Self::$kind(shape) => shape.bounds(),)+ }
+            }
+
+            /// The distance of its farthest point from the origin.
+            pub fn reach(&self) -> f64 {
+                match self { $(Self::$kind(shape) => shape.reach(),)+ }
+            }
+
+            /// Points whose convex hull holds it. `axes` are those that a box around it should be along, if it may
+            /// choose.
+            pub fn corners(&self, axes: DMat3) -> Corners {
+                match self { $(Self::$kind(shape) => shape.corners(axes),)+ }
+            }
+
+            /// Three vectors that only shapes of this kind have in common that cover one another, as f32 has them.
+            pub(super) fn place(&self) -> [Vec3; 3] {
+                match self { $(Self::$kind(shape) => shape.place(),)+ }
+            }
+        }
+
+        $(impl From<$kind> for Shape {
+            fn from(shape: $kind) -> Self {
+                Self::$kind(shape)
+            }
+        }
+
+        impl<'a> TryFrom<&'a Shape> for &'a $kind {
+            type Error = ();
+
+            fn try_from(shape: &'a Shape) -> Result<Self, ()> {
+                match shape {
+                    Shape::$kind(shape) => Ok(shape),
+                    _ => Err(()),
+                }
+            }
+        })+
+    };
+}
+shape_kinds!(define_shape);
+
+impl Shaded {
+    /// A shape that stands still.
+    pub fn still(shape: impl Into<Shape>, material: u32) -> Self {
+        Self { shape: shape.into(), material, velocity: Vec3::ZERO }
+    }
+}
