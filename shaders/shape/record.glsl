@@ -37,6 +37,18 @@ struct Surface {
     vec2 uv; // where on the shape: see the kinds
 };
 
+// The coordinates of a vector along two directions across a unit normal: the world's axes x and z where that points up
+// or down, and turned with it elsewhere. T. Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017,
+// with y upwards.
+vec2 across_normal(vec3 n, vec3 vector) {
+    float up = n.y < 0.0 ? -1.0 : 1.0;
+    float a = -1.0 / (up + n.y);
+    float b = n.x * n.z * a;
+    vec3 first = vec3(1.0 + up * n.x * n.x * a, -up * n.x, up * b);
+    vec3 second = vec3(b, -n.z, up + n.z * n.z * a);
+    return vec2(dot(first, vector), dot(second, vector));
+}
+
 const Surface NO_SURFACE = Surface(vec3(0.0), 0.0, false, 0.0, vec3(0.0), vec2(0.0));
 
 #endif

@@ -35,7 +35,7 @@ pub use light::{Background, Light, LightKind};
 pub use material::{Checker, Material};
 pub use optics::{FRAME_HEIGHT_MM, vfov_of_focal_length};
 pub use preset::{PRESETS, Preset};
-pub use shape::{Box, Plane, Shaded, Shape, Sphere, Triangle};
+pub use shape::*;
 pub use view::{Overlay, View};
 
 use glam::{DVec3, Vec3};

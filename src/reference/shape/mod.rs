@@ -7,7 +7,7 @@ mod triangle;
 
 use super::Ray;
 use crate::scene::Shape;
-use glam::{DVec2, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 
 /// Where a ray meets a shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,6 +27,14 @@ impl Crossing {
     fn flat(distance: f64, normal: DVec3, uv: DVec2) -> Self {
         Self { distance, normal, shading_normal: normal, uv }
     }
+}
+
+/// The coordinates of a vector along two directions across a unit normal: the world's axes x and z, turned with the
+/// normal from the vertical that it is nearer to.
+fn across_normal(normal: DVec3, vector: DVec3) -> DVec2 {
+    let vertical = if normal.y < 0.0 { DVec3::NEG_Y } else { DVec3::Y };
+    let turned_back = DQuat::from_rotation_arc(vertical, normal).inverse() * vector;
+    DVec2::new(turned_back.x, turned_back.z)
 }
 
 /// The nearest crossing farther than `least`.

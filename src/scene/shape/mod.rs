@@ -6,16 +6,6 @@ mod plane;
 mod sphere;
 mod triangle;
 
-pub use r#box::Box;
-pub use plane::Plane;
-pub use sphere::Sphere;
-pub use triangle::Triangle;
-
-pub(super) use r#box::BoxTable;
-pub(super) use plane::PlaneTable;
-pub(super) use sphere::SphereTable;
-pub(super) use triangle::TriangleTable;
-
 use super::file::Fault;
 use glam::{DMat3, DVec3, Vec3};
 use toml::Spanned;
@@ -108,6 +98,9 @@ impl Corners {
 
 macro_rules! define_shape {
     ($(($kind:ident, $table:ident, $name:ident),)+) => {
+        $(pub use $name::$kind;
+        pub(super) use $name::$table;)+
+
         /// The names of the kinds in scene files, as identifiers of Rust.
         pub(super) const SHAPE_NAMES: &[&str] = &[$(stringify!($name)),+];
 
