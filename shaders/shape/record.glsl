@@ -45,7 +45,7 @@ vec2 across_normal(vec3 n, vec3 vector) {
     float a = -1.0 / (up + n.y);
     float b = n.x * n.z * a;
     vec3 first = vec3(1.0 + up * n.x * n.x * a, -up * n.x, up * b);
-    vec3 second = vec3(b, -n.z, up + n.z * n.z * a);
+    vec3 second = up * vec3(b, -n.z, up + n.z * n.z * a);
     return vec2(dot(first, vector), dot(second, vector));
 }
 
