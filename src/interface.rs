@@ -142,6 +142,8 @@ pub mod shape {
         BOX,
         /// A triangle.
         TRIANGLE,
+        /// The side of a cylinder.
+        CYLINDER,
         /// An infinite plane.
         PLANE,
     }

@@ -70,13 +70,15 @@ fn shapes() -> Vec<(&'static str, SceneRef)> {
     let far_sphere = ("sphere", "center = [1.5, 0.5, -0.9]\nradius = 0.4");
     let a_box = ("box", "lower = [-1.2, -0.7, -0.4]\nupper = [0.9, 0.8, 1.1]");
     let triangle = ("triangle", "vertices = [[-1.5, -1, 0.3], [1.2, -0.8, -0.2], [0.1, 1.6, 0.5]]");
+    let cylinder = ("cylinder", "start = [-1.1, 0.4, -0.8]\nend = [0.9, -0.6, 1.2]\nradius = 0.7");
     let plane = ("plane", "point = [0.2, -0.5, 0.1]\nnormal = [0.3, 2, -0.4]");
     vec![
         ("sphere", scene(&[sphere])),
         ("box", scene(&[a_box])),
         ("triangle", scene(&[triangle])),
+        ("cylinder", scene(&[cylinder])),
         ("plane", scene(&[plane])),
-        ("all of them", scene(&[sphere, far_sphere, a_box, triangle, plane])),
+        ("all of them", scene(&[sphere, far_sphere, a_box, triangle, cylinder, plane])),
         ("a crowd", crowd()),
         ("a chain", chain()),
     ]
@@ -106,6 +108,9 @@ fn crowd() -> SceneRef {
         toml += &format!("[[sphere]]\ncenter = {center}\nradius = {radius}\n{material}");
         let (center, half) = at(index, 6);
         toml += &format!("[[box]]\nlower = {}\nupper = {}\n{material}", center - half, center + 2.0 * half);
+        let (center, radius) = at(index, 17);
+        let end = center + 4.0 * radius * random_direction(index, 18);
+        toml += &format!("[[cylinder]]\nstart = {center}\nend = {end}\nradius = {radius}\n{material}");
         let (center, size) = at(index, 7);
         let [a, b] = [8, 9].map(|stream| center + 6.0 * size * random_direction(index, stream));
         toml += &format!("[[triangle]]\nvertices = [{center}, {a}, {b}]\n{material}");
@@ -210,6 +215,9 @@ fn rays_meet_what_the_oracles_meet() {
             "box_normal_of_the_far_face",
             "box_blind_along_the_axes",
             "triangle_a_parallelogram",
+            "cylinder_without_ends",
+            "cylinder_seen_from_outside_only",
+            "cylinder_normal_along_the_axis",
             "triangle_of_one_side",
             "plane_on_the_other_side_of_the_origin",
             "plane_met_behind_the_ray",

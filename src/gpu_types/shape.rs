@@ -25,6 +25,7 @@ impl ShapeRecord {
             Shape::Sphere(_) => shape::SPHERE,
             Shape::Box(_) => shape::BOX,
             Shape::Triangle(_) => shape::TRIANGLE,
+            Shape::Cylinder(_) => shape::CYLINDER,
             Shape::Plane(_) => shape::PLANE,
         }
     }
@@ -38,6 +39,11 @@ impl ShapeRecord {
             Shape::Triangle(triangle) => {
                 let [a, b, c] = triangle.from_widest_corner().vertices.map(|vertex| vertex.as_vec3());
                 (a, b - a, c - a)
+            }
+            Shape::Cylinder(cylinder) => {
+                let half = 0.5 * (cylinder.end - cylinder.start);
+                let numbers = Vec3::new(cylinder.radius, half.length() as f32, 0.0);
+                ((cylinder.start + half).as_vec3(), cylinder.axis().as_vec3(), numbers)
             }
             Shape::Plane(plane) => {
                 let normal = plane.normal.as_dvec3().normalize();

@@ -176,8 +176,8 @@ fn value_of(table: Option<&str>, key: &str) -> &'static str {
         (_, "color" | "horizon" | "zenith" | "even" | "odd") => COLOR,
         (
             _,
-            "eye" | "look_at" | "up" | "center" | "velocity" | "lower" | "upper" | "point" | "normal"
-            | "position" | "direction" | "rotate_degrees",
+            "eye" | "look_at" | "up" | "center" | "velocity" | "lower" | "upper" | "start" | "end" | "point"
+            | "normal" | "position" | "direction" | "rotate_degrees",
         ) => THREE_NUMBERS,
         (_, "vertices") => "three corners, [[x, y, z], [x, y, z], [x, y, z]]",
         (_, "material" | "file" | "preset" | "model" | "overlay" | "aperture_image") => {

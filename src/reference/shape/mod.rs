@@ -1,6 +1,7 @@
 //! Rays against shapes, by the textbook: a file a kind, with the name of its shader in `shaders/shape`.
 
 mod r#box;
+mod cylinder;
 mod plane;
 mod sphere;
 mod triangle;
@@ -43,6 +44,7 @@ pub fn crossing(shape: &Shape, ray: Ray, least: f64) -> Option<Crossing> {
         Shape::Sphere(shape) => sphere::crossing(shape, ray, least),
         Shape::Box(shape) => r#box::crossing(shape, ray, least),
         Shape::Triangle(shape) => triangle::crossing(shape, ray, least),
+        Shape::Cylinder(shape) => cylinder::crossing(shape, ray, least),
         Shape::Plane(shape) => plane::crossing(shape, ray, least),
     }
 }

@@ -2,6 +2,7 @@
 //! file, and what a tree and a camera must know of it; `shape_kinds` lists them.
 
 mod r#box;
+mod cylinder;
 mod plane;
 mod sphere;
 mod triangle;
@@ -17,6 +18,7 @@ macro_rules! shape_kinds {
             (Sphere, SphereTable, sphere),
             (Box, BoxTable, r#box),
             (Triangle, TriangleTable, triangle),
+            (Cylinder, CylinderTable, cylinder),
             (Plane, PlaneTable, plane),
         }
     };

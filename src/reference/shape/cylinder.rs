@@ -1,0 +1,29 @@
+//! |o + t d - c|^2 = r^2, of what is across the axis.
+
+use super::{Crossing, Ray, across_normal};
+use crate::scene::Cylinder;
+use glam::DVec2;
+use std::f64::consts::TAU;
+
+pub(super) fn crossing(cylinder: &Cylinder, ray: Ray, least: f64) -> Option<Crossing> {
+    let axis = cylinder.axis();
+    let length = cylinder.start.distance(cylinder.end);
+    let radius = f64::from(cylinder.radius);
+    let from_start = ray.origin - cylinder.start;
+    // The cross product with the axis turns what is across it by a right angle, and leaves its length.
+    let (origin, direction) = (from_start.cross(axis), ray.direction.cross(axis));
+    let (a, half_b) = (direction.length_squared(), origin.dot(direction));
+    let discriminant = half_b * half_b - a * (origin.length_squared() - radius * radius);
+    if a == 0.0 || discriminant <= 0.0 {
+        return None;
+    }
+    let root = discriminant.sqrt();
+    let height = |distance: f64| (from_start + distance * ray.direction).dot(axis);
+    let met = |distance: &f64| *distance > least && (0.0..=length).contains(&height(*distance));
+    let distance = [(-half_b - root) / a, (-half_b + root) / a].into_iter().find(met)?;
+    let at = from_start + distance * ray.direction;
+    let normal = (at - height(distance) * axis) / radius;
+    let turned = across_normal(axis, normal);
+    let uv = DVec2::new(0.5 + turned.y.atan2(turned.x) / TAU, height(distance) / length);
+    Some(Crossing::flat(distance, normal, uv))
+}
