@@ -118,7 +118,12 @@ fn paths(text: &str) -> Vec<&str> {
 #[test]
 fn files_that_texts_name_exist() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut texts = vec![root.join("README.md"), root.join("docs/optics.md"), root.join("docs/scenes.md")];
+    let mut texts = vec![
+        root.join("README.md"),
+        root.join("docs/optics.md"),
+        root.join("docs/scenes.md"),
+        root.join("CONTRIBUTING.md"),
+    ];
     walk(&root.join("src"), &mut |path| texts.push(path.to_path_buf()));
     walk(&root.join("tests"), &mut |path| texts.push(path.to_path_buf()));
     let mut named = 0;
