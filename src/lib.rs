@@ -15,7 +15,7 @@
 //! - [`passes`] are the compute passes, each with the shader of its name in `shaders/`.
 //! - [`renderer`] owns film and passes and decides what is traced next.
 //! - [`output`] writes files, [`app`] is the window, [`cli`] the command line.
-//! - [`bench`] measures what it costs to render, and what comes of it.
+//! - [`bench`](mod@bench) measures what it costs to render, and what comes of it.
 //! - [`reference`](mod@reference) is the renderer again, in f64 on the CPU: the oracle that [`verify`] and the
 //!   tests hold the device against. It shares no code with the device's side.
 //! - [`vulkan`] wraps the driver and is the only unsafe code.

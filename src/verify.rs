@@ -76,7 +76,7 @@ impl Agreement {
 }
 
 /// Renders sample after sample of each pixel on the device and with the oracle, compares what each
-/// adds to the film, and fails outside the bounds. Every [`SAMPLES_PER_SEED`] samples the seed is raised
+/// adds to the film, and fails outside the bounds. Every `SAMPLES_PER_SEED` samples the seed is raised
 /// by one.
 ///
 /// # Errors

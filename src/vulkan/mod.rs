@@ -2,7 +2,7 @@
 //!
 //! Ownership goes from child to parent by `Arc` (`Instance <- Device <- Buffer, Image, ...`), so a
 //! handle is never destroyed after what it came from. Every call into the driver goes through
-//! [`check`], which says what was tried. What a recording uses is held by whoever records, until
+//! `check`, which says what was tried. What a recording uses is held by whoever records, until
 //! the commands are done; the renderer and the window do so by waiting before they replace it.
 #![allow(unsafe_code, reason = "this module wraps the driver's C interface")]
 
