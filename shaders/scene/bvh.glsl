@@ -16,7 +16,6 @@ layout(constant_id = ID_TREE_DEPTH) const uint TREE_DEPTH = 0u; // 0: no tree
 // A ray that needs more steps is given up: Mesa's software device would end it silently later on.
 layout(constant_id = ID_MOST_TREE_STEPS) const uint MOST_TREE_STEPS = 1024u;
 
-
 // Boxes around the children, whose planes stand on a grid of the node's own.
 struct TreeNode {
     vec3 origin;
