@@ -165,14 +165,16 @@ mod tests {
     /// Catches a device that is taken although it cannot bind what the shaders need.
     #[test]
     fn a_device_that_binds_too_little_is_named() {
+        let [(_, buffers), (_, images), (_, texels)] = NEEDED;
         let mut limits = vk::PhysicalDeviceLimits {
-            max_per_stage_descriptor_storage_buffers: 12,
-            max_per_stage_descriptor_storage_images: 4,
-            max_per_stage_descriptor_sampled_images: 16,
+            max_per_stage_descriptor_storage_buffers: buffers,
+            max_per_stage_descriptor_storage_images: images,
+            max_per_stage_descriptor_sampled_images: texels,
             ..Default::default()
         };
         assert_eq!(why_too_small(&limits), None);
-        limits.max_per_stage_descriptor_storage_buffers = 11;
-        assert!(why_too_small(&limits).is_some_and(|why| why.contains("11 storage buffers, needs 12")));
+        limits.max_per_stage_descriptor_storage_buffers -= 1;
+        let told = format!("{} storage buffers, needs {buffers}", buffers - 1);
+        assert!(why_too_small(&limits).is_some_and(|why| why.contains(&told)));
     }
 }
