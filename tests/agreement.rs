@@ -66,6 +66,7 @@ fn the_device_renders_what_the_oracle_does() {
             "disk_sector_mirrored",
             "shadow_limit_ignored",
             "light_by_the_cosine_to_the_axis",
+            "rows_of_workgroups_visited_twice",
         ],
     );
 }

@@ -120,6 +120,8 @@ fn stats_say_what_was_done() {
     assert_eq!(stats["samples_per_pixel"], 9);
     assert_eq!(stats["samples"], 48 * 36 * 9);
     assert_eq!(stats["rejected_samples"], 0);
+    let longest = stats["longest_submission_seconds"].as_f64().expect("a number");
+    assert!(longest > 0.0 && longest <= stats["seconds"].as_f64().expect("a number"));
     assert!(stats["rays"].as_u64() > stats["samples"].as_u64());
     let rate =
         stats["samples"].as_f64().expect("a number") / stats["seconds"].as_f64().expect("a number") / 1e6;

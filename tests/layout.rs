@@ -44,7 +44,7 @@ fn twins() -> Vec<Twin> {
             Camera,
             [eye, lens_radius, u, inverse_focal_distance, v, inverse_view_distance, w, jitter]
         ),
-        twin!("Lattice", Lattice, [extent, origin, stride]),
+        twin!("Lattice", Lattice, [extent, origin, stride, first_row, row_step, row_count]),
         twin!("TracePush", TracePush, [camera, lattice, seed, max_bounces, first_sample, sample_count]),
         twin!("AccumulatePush", AccumulatePush, [lattice, seed, first_sample, jitter, reach]),
         twin!("SelectPush", SelectPush, [lattice, threshold, cell]),

@@ -28,7 +28,8 @@ bool find_pixel(Lattice lattice, out uvec2 pixel) {
     // Eight invocations that follow one another cover 4 by 2 pixels and not 8 by 1: their rays stay closer.
     uvec2 local = gl_LocalInvocationID.xy;
     uvec2 place = uvec2(local.x & 3u | (local.y & 1u) << 2u, local.x >> 2u | local.y & 6u);
-    pixel = lattice_pixel(lattice, GROUP_SIZE * gl_WorkGroupID.xy + place);
+    uint row = visited_row(lattice, lattice.first_row + gl_WorkGroupID.y);
+    pixel = lattice_pixel(lattice, GROUP_SIZE * uvec2(gl_WorkGroupID.x, row) + place);
     return inside(pixel, lattice.extent);
 }
 

@@ -5,13 +5,26 @@
 
 #include "interface.glsl"
 
-// The pixels that a dispatch covers: origin + stride * invocation, inside extent. A stride above
-// one is the interleaved preview.
+// The pixels that a dispatch covers: origin + stride * (x, y), inside extent. A stride above one is the
+// interleaved preview. Rows of workgroups are visited row_step apart, round and round, so that a part of them is like
+// the whole picture.
 struct Lattice {
     uvec2 extent;
     uvec2 origin;
     uint stride;
+    uint first_row; // of workgroups, in the order of the visits
+    uint row_step; // shares no divisor with row_count
+    uint row_count;
 };
+
+// The row of workgroups that is visited as the one of this number.
+uint visited_row(Lattice lattice, uint number) {
+    uint product = number * lattice.row_step;
+    // The remainder, by way of floats: a software device divides integers one by one. The quotient may be off by one.
+    int rest = int(product - lattice.row_count * uint(float(product) / float(lattice.row_count)));
+    rest += rest < 0 ? int(lattice.row_count) : 0;
+    return uint(rest) - (rest >= int(lattice.row_count) ? lattice.row_count : 0u);
+}
 
 uvec2 lattice_pixel(Lattice lattice, uvec2 invocation) {
     return lattice.origin + lattice.stride * invocation;

@@ -12,7 +12,7 @@ pub use brightest::Brightest;
 pub use scene::SceneData;
 pub use shape::ShapeRecord;
 
-use crate::interface::{constant, overlay, sampler};
+use crate::interface::{GROUP_SIZE, constant, overlay, sampler};
 use crate::scene::{CameraModel, Hole, Overlay};
 use crate::settings::{Estimator, Sampler, Settings};
 use bytemuck::{Pod, Zeroable};
@@ -99,7 +99,9 @@ pub struct Lattice {
     pub extent: [u32; 2],
     pub origin: [u32; 2],
     pub stride: u32,
-    pub pad0: u32,
+    pub first_row: u32,
+    pub row_step: u32,
+    pub row_count: u32,
 }
 
 /// `TracePush` of trace_batch.glsl.
@@ -236,10 +238,11 @@ pub fn sampler_constant(chosen: Sampler) -> (u32, u32) {
 }
 
 impl Lattice {
-    /// Of the pixels from this column and row of it on.
+    /// Of the pixels from this column of it on, and from this row in the order in which its rows of workgroups are
+    /// visited.
     pub fn from_tile(self, at: [u32; 2]) -> Self {
-        let origin = [0, 1].map(|axis| self.origin[axis] + at[axis] * self.stride);
-        Self { origin, ..self }
+        let origin = [self.origin[0] + at[0] * self.stride, self.origin[1]];
+        Self { origin, first_row: at[1] / GROUP_SIZE, ..self }
     }
 }
 

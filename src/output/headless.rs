@@ -133,6 +133,7 @@ fn render_on(instance: &Arc<Instance>, job: &Job, format: PictureFormat) -> Resu
         rejected_samples: progress.rejected_samples,
         seconds,
         msamples_per_second: progress.traced as f64 / seconds / 1e6,
+        longest_submission_seconds: progress.longest_submission.as_secs_f64(),
         device: device.info().name.clone(),
         driver: device.info().driver.clone(),
     };

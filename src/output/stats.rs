@@ -31,6 +31,8 @@ pub struct Stats {
     pub seconds: f64,
     /// Millions of samples a second of that time.
     pub msamples_per_second: f64,
+    /// The device's time for the longest of the submissions, which are cut to take about a tenth of a second.
+    pub longest_submission_seconds: f64,
     /// The device's name.
     pub device: String,
     /// The driver's name and version.

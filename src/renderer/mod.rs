@@ -288,7 +288,7 @@ impl Renderer {
         self.fit_loops(&buffers, estimator.max_bounces)?;
         let (shader, constants) = (self.shaders.trace, lens_constants(estimator));
         let trace = Trace::new(&self.device, shader, &constants, &buffers, &self.tile)?;
-        self.tally.forget_scene();
+        self.tally.forget_scene(data.tree_depth > 0);
         let moves = data.moves;
         self.scene =
             Some(LoadedScene { scene, buffers, trace, aperture, moves, shutter, pick: None, geometry: None });

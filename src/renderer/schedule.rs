@@ -33,7 +33,8 @@ pub fn listed_size(pixels: u64, local: [u32; 2]) -> [u32; 2] {
 
 /// What a dispatch over the list covers, from the tile's column and row on.
 pub fn listed_lattice(size: [u32; 2], at: [u32; 2], local: [u32; 2]) -> Lattice {
-    Lattice { extent: size, origin: [at[1] * LISTED_ROW + at[0] * local[1], 0], stride: 0, pad0: 0 }
+    let origin = [at[1] * LISTED_ROW + at[0] * local[1], 0];
+    Lattice { extent: size, origin, stride: 0, first_row: 0, row_step: 1, row_count: 1 }
 }
 
 /// The largest batch, a power of two, whose loops go round `most` times at most if those of every sample go round
@@ -171,7 +172,9 @@ impl Pass {
             2 => PHASES_OF_4[self.phase as usize],
             _ => [0, 0],
         };
-        Lattice { extent: size, origin, stride: self.stride, pad0: 0 }
+        let stride = self.stride;
+        let row_count = size[1].saturating_sub(origin[1]).div_ceil(stride * GROUP_SIZE).max(1);
+        Lattice { extent: size, origin, stride, first_row: 0, row_step: row_step(row_count), row_count }
     }
 
     /// How many columns and rows of pixels the lattice has.
@@ -179,6 +182,32 @@ impl Pass {
         let origin = self.lattice(size).origin;
         [0, 1].map(|axis| size[axis].saturating_sub(origin[axis]).div_ceil(self.stride))
     }
+}
+
+/// How far apart rows of workgroups are visited, so that any run of visits is spread over the whole picture: about the
+/// golden section of their number, and without a divisor in common with it.
+fn row_step(count: u32) -> u32 {
+    let near = (0.618_034 * f64::from(count)).round() as u32;
+    let divides = |a: u32, b: u32| {
+        let (mut a, mut b) = (a, b);
+        while b > 0 {
+            (a, b) = (b, a % b);
+        }
+        a
+    };
+    let around = (0..count).flat_map(|off| [near.saturating_sub(off), near + off]);
+    around.into_iter().find(|step| *step > 0 && divides(*step, count) == 1).unwrap_or(1)
+}
+
+/// The rows of pixels in `rows` rows of a tile that starts at the row `from`, in the order of the visits, of a lattice
+/// with `height` rows: the last row of workgroups may have fewer, whenever it is visited.
+pub fn rows_of_pixels(lattice: &Lattice, height: u32, from: u32, rows: u32) -> u32 {
+    let visits = from / GROUP_SIZE..(from + rows).div_ceil(GROUP_SIZE).min(lattice.row_count);
+    let last = u64::from(lattice.row_count - 1);
+    let row = |visit: u32| u64::from(visit) * u64::from(lattice.row_step) % u64::from(lattice.row_count);
+    let missing = height.next_multiple_of(GROUP_SIZE) - height;
+    let shorter = visits.clone().any(|visit| row(visit) == last);
+    (visits.len() as u32 * GROUP_SIZE).saturating_sub(if shorter { missing } else { 0 })
 }
 
 /// The columns and rows of the next tile, in a lattice of `size`, of which everything before
@@ -291,6 +320,35 @@ mod tests {
                     next = after_tile(size, at, [columns, rows]);
                 }
                 assert_eq!(seen.len(), (size[0] * size[1]) as usize, "{size:?}, {pixels} pixels");
+            }
+        }
+    }
+
+    /// Catches a row of workgroups that is visited twice or never, runs of visits that leave out a part of the
+    /// picture, and tiles whose pixels are counted wrong.
+    #[test]
+    fn rows_are_visited_once_and_everywhere() {
+        for height in [1, 8, 9, 48, 63, 719, 720, 2160, 16384] {
+            let lattice = Pass::whole(0, 1, 1).lattice([64, height]);
+            let count = lattice.row_count;
+            let row = |visit: u32| u64::from(visit) * u64::from(lattice.row_step) % u64::from(count);
+            let visited: HashSet<_> = (0..count).map(row).collect();
+            assert_eq!(visited.len(), count as usize, "{height}");
+            // Of a sixteenth of the visits, some are in each quarter of the picture.
+            let run = count / 16;
+            if run >= 8 {
+                for from in [0, count / 2, count - run] {
+                    let quarters: HashSet<_> =
+                        (from..from + run).map(|visit| 4 * row(visit) / u64::from(count)).collect();
+                    assert_eq!(quarters.len(), 4, "{height}, from {from}");
+                }
+            }
+            let padded = height.next_multiple_of(GROUP_SIZE);
+            for rows in [8, 16, 40] {
+                let tiles = (0..padded).step_by(rows as usize);
+                let sum: u32 =
+                    tiles.map(|from| rows_of_pixels(&lattice, height, from, rows.min(padded - from))).sum();
+                assert_eq!(sum, height, "{height} in tiles of {rows}");
             }
         }
     }

@@ -7,8 +7,12 @@ use crate::vulkan::{Buffer, Device, FRAMES_IN_FLIGHT, Recording, Residence, Time
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Assumed until a submission was measured: slow enough for a software device.
-const UNMEASURED_NANOSECONDS: f64 = 50.0;
+/// What a unit of work takes is assumed until a submission was measured: slow enough for a software device, in a
+/// scene without a tree and in one with it.
+const UNMEASURED_NANOSECONDS: [f64; 2] = [50.0, 400.0];
+
+/// How many of the last submissions say how fast the device is: one that met little says nothing of the next.
+const MEASUREMENTS: usize = 4;
 
 /// How far a picture is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -23,6 +27,8 @@ pub struct Progress {
     pub rejected_samples: u64,
     /// How long the device worked on them.
     pub device_time: Duration,
+    /// The longest that it worked on one submission.
+    pub longest_submission: Duration,
     /// How many pixels are still traced, at most: of an adaptive picture, once some have stopped.
     pub active_pixels: Option<u64>,
 }
@@ -40,7 +46,10 @@ pub(super) struct Work {
 pub(super) struct Tally {
     frames: Vec<Frame>,
     sum: Progress,
-    nanoseconds_per_unit: Option<f64>,
+    /// What a unit of work took in the last submissions, the last one first.
+    nanoseconds_per_unit: Vec<f64>,
+    /// See [`UNMEASURED_NANOSECONDS`].
+    unmeasured: f64,
     /// Told apart by number, so that frames in flight do not count for a later picture.
     picture: u64,
     /// Whether a sample of this scene was rejected, in any picture.
@@ -87,7 +96,8 @@ impl Tally {
         Ok(Self {
             frames: (0..FRAMES_IN_FLIGHT).map(|_| frame()).collect::<Result<_>>()?,
             sum: Progress::default(),
-            nanoseconds_per_unit: None,
+            nanoseconds_per_unit: Vec::new(),
+            unmeasured: UNMEASURED_NANOSECONDS[0],
             picture: 0,
             saw_rejected_samples: false,
         })
@@ -99,15 +109,16 @@ impl Tally {
     }
 
     /// Another scene: what was measured says nothing of it.
-    pub(super) fn forget_scene(&mut self) {
-        self.nanoseconds_per_unit = None;
+    pub(super) fn forget_scene(&mut self, has_tree: bool) {
+        self.nanoseconds_per_unit.clear();
+        self.unmeasured = UNMEASURED_NANOSECONDS[usize::from(has_tree)];
         self.saw_rejected_samples = false;
     }
 
-    /// How much the device can do in this time, in samples traced, by the last measurement.
+    /// How much the device can do in this time, in samples traced, by the worst of the last measurements.
     pub(super) fn work_within(&self, budget: Duration) -> u64 {
-        let each = self.nanoseconds_per_unit.unwrap_or(UNMEASURED_NANOSECONDS);
-        (budget.as_nanos() as f64 / each) as u64
+        let worst = self.nanoseconds_per_unit.iter().copied().reduce(f64::max);
+        (budget.as_nanos() as f64 / worst.unwrap_or(self.unmeasured)) as u64
     }
 
     pub(super) fn start(&self, recording: &mut Recording<'_>, frame: usize) {
@@ -143,9 +154,10 @@ impl Tally {
         let elapsed = frame.timer.elapsed()?.unwrap_or_else(|| started.elapsed());
         if work.cost > 0 {
             // A clock that reads too little must not lead to a dispatch of seconds.
-            let least = self.nanoseconds_per_unit.unwrap_or(UNMEASURED_NANOSECONDS) / 8.0;
+            let least = self.nanoseconds_per_unit.first().unwrap_or(&self.unmeasured) / 8.0;
             let measured = elapsed.as_nanos() as f64 / work.cost as f64;
-            self.nanoseconds_per_unit = Some(measured.max(least));
+            self.nanoseconds_per_unit.insert(0, measured.max(least));
+            self.nanoseconds_per_unit.truncate(MEASUREMENTS);
         }
         let counters = Counters::from_bytes(frame.counters.bytes());
         self.saw_rejected_samples |= counters.rejected_samples > 0;
@@ -154,6 +166,7 @@ impl Tally {
             self.sum.rays += u64::from(counters.rays);
             self.sum.rejected_samples += u64::from(counters.rejected_samples);
             self.sum.device_time += elapsed;
+            self.sum.longest_submission = self.sum.longest_submission.max(elapsed);
             if lists {
                 let count = bytemuck::pod_read_unaligned::<u32>(&frame.active.bytes()[..4]);
                 self.sum.active_pixels = Some(count.into());

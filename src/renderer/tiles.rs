@@ -105,17 +105,20 @@ impl Renderer {
         };
         let whole_film = Pass::whole(0, 1, 1);
         let of_stage = if stage == Stage::Trace { pass } else { whole_film };
+        let of_picture = of_stage.lattice(estimator.size);
+        let [width, height] = of_stage.lattice_size(estimator.size);
         let size = match self.list {
             Some(_) => schedule::listed_size(self.most_active(estimator), local),
-            None => of_stage.lattice_size(estimator.size),
+            // Whole rows of workgroups, for the last one is not visited last.
+            None => [width, height.next_multiple_of(local[1])],
         };
         let pixels = (left as f64 / cost) as u64;
         let tile = if whole { size } else { schedule::tile(size, at, pixels, local) };
-        let tile_pixels = u64::from(tile[0]) * u64::from(tile[1]);
-        let lattice = match self.list {
-            Some(_) => schedule::listed_lattice(estimator.size, at, local),
-            None => of_stage.lattice(estimator.size).from_tile(at),
+        let (lattice, rows) = match self.list {
+            Some(_) => (schedule::listed_lattice(estimator.size, at, local), tile[1]),
+            None => (of_picture.from_tile(at), schedule::rows_of_pixels(&of_picture, height, at[1], tile[1])),
         };
+        let tile_pixels = u64::from(tile[0]) * u64::from(rows);
         let list = self.list.unwrap_or_default();
         if tile_pixels > 0 {
             match stage {
