@@ -58,7 +58,7 @@ pub fn on_device(settings: &Settings) -> u32 {
     } else {
         SceneData::with_tree(scene, shutter, true).tree_depth
     };
-    let bounded = scene.shapes.iter().filter(|of| of.shape.bounds().is_some()).count();
+    let bounded = scene.shapes.iter().filter(|of| of.shape.is_bounded()).count();
     assert_eq!(depth > 0, bounded > 0, "a tree of {bounded} shapes");
     depth
 }

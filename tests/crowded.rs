@@ -34,7 +34,7 @@ fn spheres(shapes: impl Iterator<Item = (Vec3, f32)>) -> Scene {
 
 /// The tree of a scene's shapes, with a shutter that is open for a second.
 fn bvh(scene: &Scene) -> Bvh {
-    let bounded = scene.shapes.iter().filter(|of| of.shape.bounds().is_some());
+    let bounded = scene.shapes.iter().filter(|of| of.shape.is_bounded());
     Bvh::new(bounded.copied().collect(), 1.0).expect("a tree")
 }
 

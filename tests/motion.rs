@@ -20,7 +20,7 @@ fn everything_moves() -> Settings {
         let [x, y, z, _] = sampler::sample_values(Sampler::Random, 3, [i as u32, 0], 0, 0);
         Vec3::new(x as f32, y as f32, z as f32) - 0.5
     };
-    let bounded = scene.shapes.iter_mut().filter(|of| of.shape.bounds().is_some());
+    let bounded = scene.shapes.iter_mut().filter(|of| of.shape.is_bounded());
     (0..).zip(bounded).for_each(|(i, of)| of.velocity = 20.0 * velocity(i));
     scene.shutter = 0.05;
     let mut settings = Settings::of_scene(SceneRef::new(scene));

@@ -148,7 +148,9 @@ float search_tree(Ray ray, vec3 inverse_direction, float limit, bool any_will_do
             first = descends ? node.first : first;
             children = descends ? met : children;
         } else {
-            float at = tree_shape_distance(ray, inverse_direction, shape_now(to_shape(record)));
+            vec3 displacement;
+            ShapeRecord shape = shape_now(to_shape(record), displacement);
+            float at = tree_shape_distance(ray, inverse_direction, shape);
             bool closer = at < distance;
             nearest = closer ? index : nearest;
             distance = closer ? at : distance;

@@ -24,7 +24,8 @@ bool has_shape(uint kind) {
     return (SHAPE_KINDS >> kind & 1u) != 0u;
 }
 
-// Whether a shape is of this kind, if it is one of kinds, a bit each. Where only one of them is in the scene, that is known.
+// Whether a shape is of this kind, if it is one of kinds, a bit each. Where only one of them is in the scene, that is
+// known.
 bool is_of_kind(ShapeRecord shape, uint kind, uint kinds) {
     uint there = SHAPE_KINDS & kinds; // the reflection library cannot compare constants
     return there == 1u << kind || shape.kind == kind;
@@ -43,32 +44,23 @@ void move_shape(inout ShapeRecord shape, vec3 displacement) {
     FOR_EACH_BOUNDED_KIND(MOVE)
 }
 
-// A shape where it is by now.
-ShapeRecord shape_now(ShapeRecord shape) {
-    if (SCENE_MOVES == 1u) {
-        move_shape(shape, ray_time * fetch_velocity(shape.index));
-    }
-    return shape;
-}
-
-// What a shape is where a ray meets it.
-struct Met {
-    Surface surface;
-    uint material;
-    vec3 displacement; // of the shape from where it is in the middle of the exposure
-};
-
-#include "scene/bvh.glsl"
-#include "scene/list.glsl"
-
-// Of a shape whose record is fetched. ray is the one that the shape was found for.
-Met met_by_fetching(Ray ray, vec3 inverse_direction, uint record, vec3 position) {
-    ShapeRecord shape = fetch_shape(record);
-    vec3 displacement = vec3(0.0);
+// A shape where it is by now, and how far it has come.
+ShapeRecord shape_now(ShapeRecord shape, out vec3 displacement) {
+    displacement = vec3(0.0);
     if (SCENE_MOVES == 1u) {
         displacement = ray_time * fetch_velocity(shape.index);
         move_shape(shape, displacement);
     }
+    return shape;
+}
+
+#include "scene/bvh.glsl"
+#include "scene/list.glsl"
+
+// The hit of a shape whose record is fetched. ray is the one that the shape was found for.
+Hit hit_by_fetching(Ray ray, vec3 inverse_direction, Nearest nearest, vec3 position) {
+    vec3 displacement;
+    ShapeRecord shape = shape_now(fetch_shape(nearest.record), displacement);
     Surface surface = NO_SURFACE;
 #define FETCHED_SURFACE(KIND, kind_) \
     if (has_shape(SHAPE_##KIND)) { \
@@ -78,7 +70,7 @@ Met met_by_fetching(Ray ray, vec3 inverse_direction, uint record, vec3 position)
         } \
     }
     FOR_EACH_KIND(FETCHED_SURFACE)
-    return Met(surface, shape.material, displacement);
+    return Hit(nearest.distance, shape.material, surface, displacement);
 }
 
 // How far the ray can go before it meets any bounded shape. What intersecting a shape loses to rounding grows
@@ -105,13 +97,10 @@ Hit intersect_scene(Ray from, inout bool given_up) {
     nearest.distance += start;
     find_unbounded(from, inverse_direction, nearest);
     vec3 position = from.origin + nearest.distance * from.direction;
-    Met met;
     if (SCENE_IS_KEPT == 1u && !has_tree()) {
-        met = met_in_list(ray, inverse_direction, nearest.record, position);
-    } else {
-        met = met_by_fetching(ray, inverse_direction, nearest.record, position);
+        return hit_in_list(ray, inverse_direction, nearest, position);
     }
-    return Hit(nearest.distance, met.material, met.surface, met.displacement);
+    return hit_by_fetching(ray, inverse_direction, nearest, position);
 }
 
 // What f32 may lose of a point of a surface, across it, and of an intersection that starts there, as a share of

@@ -34,47 +34,45 @@ void find_unbounded(Ray ray, vec3 inverse_direction, inout Nearest nearest) {
     FOR_EACH_UNBOUNDED_KIND(FIND_UNBOUNDED)
 }
 
-// A shape of a kept list, without a fetch: each kind is looked for among its own, and only for what it needs. The
-// index differs from invocation to invocation. A scene with a kept list and no tree has LIST_BEGIN = 0.
-Met met_in_list(Ray ray, vec3 inverse_direction, uint index, vec3 position) {
-    Met met = Met(NO_SURFACE, 0u, vec3(0.0));
-#define LOOK_FOR(KIND) \
-    ShapeRecord shape = kept_shapes[KIND##_BEGIN]; \
-    vec3 displacement = vec3(0.0); \
+// The hit of a shape of a kept list, without a fetch: each kind is looked for among its own, and only for what it
+// needs. The index differs from invocation to invocation. A scene with a kept list and no tree has LIST_BEGIN = 0.
+Hit hit_in_list(Ray ray, vec3 inverse_direction, Nearest nearest, vec3 position) {
+    uint index = nearest.record;
+    Hit hit = Hit(nearest.distance, 0u, NO_SURFACE, vec3(0.0));
+#define LOOK_UP(value, kept_values, KIND) \
+    value = kept_values[KIND##_BEGIN]; \
     [[unroll]] for (uint i = KIND##_BEGIN + 1u; i < KIND##_END; ++i) { \
         if (index == i) { \
-            shape = kept_shapes[i]; \
+            value = kept_values[i]; \
         } \
     }
-#define BOUNDED_SURFACE(KIND, kind_) \
+#define KEEP_HIT(KIND, kind_) \
+    Surface surface = kind_##_surface(ray, inverse_direction, shape, position); \
+    if (index >= KIND##_BEGIN) { \
+        hit = Hit(nearest.distance, shape.material, surface, displacement); \
+    }
+#define HIT_BOUNDED(KIND, kind_) \
     if (has_shape(SHAPE_##KIND)) { \
-        LOOK_FOR(KIND) \
+        ShapeRecord shape; \
+        LOOK_UP(shape, kept_shapes, KIND) \
+        vec3 displacement = vec3(0.0); \
         if (SCENE_MOVES == 1u) { \
-            displacement = kept_velocities[KIND##_BEGIN]; \
-            [[unroll]] for (uint i = KIND##_BEGIN + 1u; i < KIND##_END; ++i) { \
-                if (index == i) { \
-                    displacement = kept_velocities[i]; \
-                } \
-            } \
+            LOOK_UP(displacement, kept_velocities, KIND) \
             displacement *= ray_time; \
             move_##kind_(shape, displacement); \
         } \
-        Surface surface = kind_##_surface(ray, inverse_direction, shape, position); \
-        if (index >= KIND##_BEGIN) { \
-            met = Met(surface, shape.material, displacement); \
-        } \
+        KEEP_HIT(KIND, kind_) \
     }
-#define UNBOUNDED_SURFACE(KIND, kind_) \
+#define HIT_UNBOUNDED(KIND, kind_) \
     if (has_shape(SHAPE_##KIND)) { \
-        LOOK_FOR(KIND) \
-        Surface surface = kind_##_surface(ray, inverse_direction, shape, position); \
-        if (index >= KIND##_BEGIN) { \
-            met = Met(surface, shape.material, displacement); \
-        } \
+        ShapeRecord shape; \
+        LOOK_UP(shape, kept_shapes, KIND) \
+        vec3 displacement = vec3(0.0); \
+        KEEP_HIT(KIND, kind_) \
     }
-    FOR_EACH_BOUNDED_KIND(BOUNDED_SURFACE)
-    FOR_EACH_UNBOUNDED_KIND(UNBOUNDED_SURFACE)
-    return met;
+    FOR_EACH_BOUNDED_KIND(HIT_BOUNDED)
+    FOR_EACH_UNBOUNDED_KIND(HIT_UNBOUNDED)
+    return hit;
 }
 
 // For shadows: the distances alone.

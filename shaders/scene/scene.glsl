@@ -57,7 +57,6 @@ layout(set = 0, binding = BINDING_MATERIALS, std430) readonly buffer Materials {
 layout(set = 0, binding = BINDING_LIGHTS, std430) readonly buffer Lights { Light lights[]; };
 layout(set = 0, binding = BINDING_ENVIRONMENT, std430) readonly buffer EnvironmentBuffer { Environment environment; };
 
-
 void fetch_record(uint index, out uvec4 record[3]) {
     int at = int(3u * index);
     record[0] = texelFetch(records, at);

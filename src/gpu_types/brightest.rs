@@ -50,7 +50,7 @@ impl Brightest {
         let cover = |bright: &f32| (*bright > least).then(|| Coverage::new([columns, rows], cell));
         let mut coverages: Vec<Option<Coverage>> = of_materials.iter().map(cover).collect();
         let axes = view.frame.world_from_camera;
-        for of in scene.shapes.iter().filter(|of| of.shape.bounds().is_some()) {
+        for of in scene.shapes.iter().filter(|of| of.shape.is_bounded()) {
             if let Some(coverage) = &mut coverages[of.material as usize] {
                 coverage.add(view.area(of.shape.corners(axes).iter(), of.velocity));
             }

@@ -238,6 +238,11 @@ pub fn sampler_constant(chosen: Sampler) -> (u32, u32) {
 }
 
 impl Lattice {
+    /// The row of workgroups that is visited as the one of this number, as in the shaders.
+    pub fn visited_row(&self, number: u32) -> u32 {
+        (u64::from(number) * u64::from(self.row_step) % u64::from(self.row_count)) as u32
+    }
+
     /// Of the pixels from this column of it on, and from this row in the order in which its rows of workgroups are
     /// visited.
     pub fn from_tile(self, at: [u32; 2]) -> Self {

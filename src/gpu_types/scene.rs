@@ -1,5 +1,6 @@
 //! A scene as the shaders want it.
 
+use super::shape::on_device;
 use super::{Environment, Light, Material, ShapeRecord, TreeNode};
 use crate::interface::shape;
 use crate::scene::{self, Bvh, LightKind, Node, Record, SceneRef, Shaded, Shape, Triangle};
@@ -43,16 +44,15 @@ impl SceneData {
     /// corners, go into a tree, with all that they pass while the shutter is open for so many seconds.
     pub fn new(scene: &SceneRef, shutter: f32) -> Self {
         let smooth = scene.of_kind::<Triangle>().any(|(triangle, _)| triangle.normals.is_some());
-        let bounded = scene.shapes.iter().filter(|of| of.shape.bounds().is_some()).count();
+        let bounded = scene.shapes.iter().filter(|of| of.shape.is_bounded()).count();
         Self::with_tree(scene, shutter, smooth || bounded > MOST_LISTED_SHAPES)
     }
 
     /// Likewise, with the bounded shapes in a tree or in the list.
     pub fn with_tree(scene: &SceneRef, shutter: f32, tree: bool) -> Self {
         let origin = scene.middle();
-        let seen = |of: &Shaded| Shaded { shape: of.shape.seen_from(origin), ..*of };
-        let shapes = scene.shapes.iter().map(seen);
-        let (bounded, unbounded): (Vec<_>, Vec<_>) = shapes.partition(|of| of.shape.bounds().is_some());
+        let shapes = scene.shapes.iter().map(|of| on_device(of, origin));
+        let (bounded, unbounded): (Vec<_>, Vec<_>) = shapes.partition(|of| of.shape.is_bounded());
         let reach = reach(&bounded, shutter);
         let (in_tree, mut in_list) = if tree { (bounded, Vec::new()) } else { (Vec::new(), bounded) };
         in_list.extend(unbounded);
@@ -109,7 +109,7 @@ impl SceneData {
 /// Those of each shape, if any has some. Zero at each corner stands for the triangle's own.
 fn corner_normals(shapes: &[Shaded]) -> Vec<[[f32; 4]; 3]> {
     let normals = |of: &Shaded| match &of.shape {
-        Shape::Triangle(triangle) => triangle.from_widest_corner().normals,
+        Shape::Triangle(triangle) => triangle.normals,
         _ => None,
     };
     if !shapes.iter().any(|of| normals(of).is_some()) {

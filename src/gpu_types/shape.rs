@@ -4,7 +4,7 @@ use super::scene::{float, floats};
 use crate::interface::shape;
 use crate::scene::{Shaded, Shape};
 use bytemuck::{Pod, Zeroable};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// `ShapeRecord` of shape/record.glsl, in the list and in the tree.
 #[repr(C)]
@@ -16,6 +16,15 @@ pub struct ShapeRecord {
     pub kind: u32,
     pub b: [f32; 3],
     pub index: u32,
+}
+
+/// A shape in coordinates with this origin, as its record begins: a triangle with its widest corner.
+pub(super) fn on_device(of: &Shaded, origin: DVec3) -> Shaded {
+    let shape = match of.shape.seen_from(origin) {
+        Shape::Triangle(triangle) => triangle.from_widest_corner().into(),
+        other => other,
+    };
+    Shaded { shape, ..*of }
 }
 
 impl ShapeRecord {
@@ -30,14 +39,13 @@ impl ShapeRecord {
         }
     }
 
-    /// Of a shape in the device's coordinates. `index` is that of its velocity, and of its corner normals in the
-    /// tree.
+    /// Of a shape as [`on_device`] gives it. `index` is that of its velocity, and of its corner normals in the tree.
     pub fn new(of: &Shaded, index: u32) -> Self {
         let (position, a, b) = match &of.shape {
             Shape::Sphere(sphere) => (sphere.center.as_vec3(), Vec3::splat(sphere.radius), Vec3::ZERO),
             Shape::Box(of) => (of.lower.as_vec3(), of.upper.as_vec3(), Vec3::ZERO),
             Shape::Triangle(triangle) => {
-                let [a, b, c] = triangle.from_widest_corner().vertices.map(|vertex| vertex.as_vec3());
+                let [a, b, c] = triangle.vertices.map(|vertex| vertex.as_vec3());
                 (a, b - a, c - a)
             }
             Shape::Cylinder(cylinder) => {

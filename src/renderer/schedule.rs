@@ -188,25 +188,22 @@ impl Pass {
 /// golden section of their number, and without a divisor in common with it.
 fn row_step(count: u32) -> u32 {
     let near = (0.618_034 * f64::from(count)).round() as u32;
-    let divides = |a: u32, b: u32| {
-        let (mut a, mut b) = (a, b);
+    let common_divisor = |mut a: u32, mut b: u32| {
         while b > 0 {
             (a, b) = (b, a % b);
         }
         a
     };
     let around = (0..count).flat_map(|off| [near.saturating_sub(off), near + off]);
-    around.into_iter().find(|step| *step > 0 && divides(*step, count) == 1).unwrap_or(1)
+    around.into_iter().find(|step| *step > 0 && common_divisor(*step, count) == 1).unwrap_or(1)
 }
 
 /// The rows of pixels in `rows` rows of a tile that starts at the row `from`, in the order of the visits, of a lattice
 /// with `height` rows: the last row of workgroups may have fewer, whenever it is visited.
 pub fn rows_of_pixels(lattice: &Lattice, height: u32, from: u32, rows: u32) -> u32 {
     let visits = from / GROUP_SIZE..(from + rows).div_ceil(GROUP_SIZE).min(lattice.row_count);
-    let last = u64::from(lattice.row_count - 1);
-    let row = |visit: u32| u64::from(visit) * u64::from(lattice.row_step) % u64::from(lattice.row_count);
     let missing = height.next_multiple_of(GROUP_SIZE) - height;
-    let shorter = visits.clone().any(|visit| row(visit) == last);
+    let shorter = visits.clone().any(|visit| lattice.visited_row(visit) == lattice.row_count - 1);
     (visits.len() as u32 * GROUP_SIZE).saturating_sub(if shorter { missing } else { 0 })
 }
 
@@ -331,15 +328,14 @@ mod tests {
         for height in [1, 8, 9, 48, 63, 719, 720, 2160, 16384] {
             let lattice = Pass::whole(0, 1, 1).lattice([64, height]);
             let count = lattice.row_count;
-            let row = |visit: u32| u64::from(visit) * u64::from(lattice.row_step) % u64::from(count);
-            let visited: HashSet<_> = (0..count).map(row).collect();
+            let visited: HashSet<_> = (0..count).map(|visit| lattice.visited_row(visit)).collect();
             assert_eq!(visited.len(), count as usize, "{height}");
             // Of a sixteenth of the visits, some are in each quarter of the picture.
             let run = count / 16;
             if run >= 8 {
                 for from in [0, count / 2, count - run] {
                     let quarters: HashSet<_> =
-                        (from..from + run).map(|visit| 4 * row(visit) / u64::from(count)).collect();
+                        (from..from + run).map(|visit| 4 * lattice.visited_row(visit) / count).collect();
                     assert_eq!(quarters.len(), 4, "{height}, from {from}");
                 }
             }

@@ -161,6 +161,13 @@ macro_rules! define_shape {
 }
 shape_kinds!(define_shape);
 
+impl Shape {
+    /// Whether it has an end: then it can move, and be in a tree.
+    pub fn is_bounded(&self) -> bool {
+        self.bounds().is_some()
+    }
+}
+
 impl Shaded {
     /// A shape that stands still.
     pub fn still(shape: impl Into<Shape>, material: u32) -> Self {
