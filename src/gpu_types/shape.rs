@@ -18,7 +18,7 @@ pub struct ShapeRecord {
     pub index: u32,
 }
 
-/// A shape in coordinates with this origin, as its record begins: a triangle with its widest corner.
+/// A shape in coordinates with this origin; a triangle with its widest corner first, where its record begins.
 pub(super) fn on_device(of: &Shaded, origin: DVec3) -> Shaded {
     let shape = match of.shape.seen_from(origin) {
         Shape::Triangle(triangle) => triangle.from_widest_corner().into(),
@@ -39,7 +39,7 @@ impl ShapeRecord {
         }
     }
 
-    /// Of a shape as [`on_device`] gives it. `index` is that of its velocity, and of its corner normals in the tree.
+    /// Of a shape in the device's coordinates, a triangle with its widest corner first. `index` is that of its velocity, and of its corner normals in the tree.
     pub fn new(of: &Shaded, index: u32) -> Self {
         let (position, a, b) = match &of.shape {
             Shape::Sphere(sphere) => (sphere.center.as_vec3(), Vec3::splat(sphere.radius), Vec3::ZERO),
