@@ -157,18 +157,18 @@ pub mod overlay {
     numbered! {
         /// Nothing.
         NONE,
+        /// What is sharp is marked.
+        FOCUS_PEAKING,
+        /// What lies in the focal plane is marked.
+        FOCAL_PLANE,
+        /// The circle of confusion.
+        CIRCLE_OF_CONFUSION,
+        /// The depth along the axis.
+        DEPTH,
         /// The number of samples.
         COUNT,
         /// The standard error.
         ERROR,
-        /// The depth along the axis.
-        DEPTH,
-        /// The circle of confusion.
-        BLUR,
-        /// What is sharp is marked.
-        PEAKING,
-        /// What lies in the focal plane is marked.
-        FOCAL_PLANE,
     }
 }
 

@@ -6,7 +6,7 @@ use std::path::Path;
 /// A module and what it may use of the crate, besides `error`.
 const ARROWS: [(&str, &[&str]); 17] = [
     ("cli", &["settings", "scene"]),
-    ("app", &["renderer", "output", "settings", "scene", "vulkan", "interface", "pending_file"]),
+    ("app", &["renderer", "output", "settings", "scene", "vulkan", "pending_file"]),
     ("bench", &["renderer", "output", "settings", "vulkan", "pending_file"]),
     ("output", &["renderer", "settings", "scene", "vulkan", "pending_file", "input_file", "interrupt"]),
     ("renderer", &["passes", "gpu_types", "interface", "settings", "scene", "vulkan"]),
@@ -15,7 +15,7 @@ const ARROWS: [(&str, &[&str]); 17] = [
     ("verify", &["renderer", "reference", "settings", "vulkan"]),
     ("reference", &["scene", "settings"]),
     ("settings", &["scene"]),
-    ("scene", &["input_file"]),
+    ("scene", &["input_file", "interface"]),
     ("vulkan", &["pending_file"]),
     ("pending_file", &["interrupt"]),
     ("input_file", &[]),

@@ -58,7 +58,7 @@ fn expected(settings: &Settings, overlay: Overlay, texel: [f32; 4], depth: f64) 
     match overlay {
         Overlay::Depth if depth.is_infinite() => [0.0; 3],
         Overlay::Depth => [focal_distance / (focal_distance + depth); 3],
-        Overlay::Blur => {
+        Overlay::CircleOfConfusion => {
             let share = (blur.abs() / (f64::from(estimator.size[1]) / 30.0)).min(1.0);
             mix([1.0; 3], if blur < 0.0 { [0.02, 0.22, 1.0] } else { [1.0, 0.2, 0.01] }, share)
         }
@@ -97,7 +97,9 @@ fn overlays_show_depth_and_blur() {
         let (mut count, mut differ, mut marked) = (0, 0, 0);
         for settings in &settings {
             let depths = depths(settings);
-            for overlay in [Overlay::Depth, Overlay::Blur, Overlay::FocusPeaking, Overlay::FocalPlane] {
+            for overlay in
+                [Overlay::Depth, Overlay::CircleOfConfusion, Overlay::FocusPeaking, Overlay::FocalPlane]
+            {
                 let mut settings = settings.clone();
                 let plain = shown(&mut renderer, &settings)?;
                 let film = renderer.read_film()?;

@@ -34,10 +34,10 @@ vec3 overlay_color(OverlayScale scale, vec3 picture, float count, float error, f
         return heat(error / scale.full_scale);
     case OVERLAY_DEPTH: // white at the lens, grey in the focal plane, black far away
         return vec3(1.0 / (1.0 + depth * scale.inverse_focal_distance));
-    case OVERLAY_BLUR:
+    case OVERLAY_CIRCLE_OF_CONFUSION:
         float share = clamp(circle_of_confusion(scale, depth) / scale.full_scale, -1.0, 1.0);
         return mix(vec3(1.0), share < 0.0 ? IN_FRONT : BEHIND, abs(share));
-    case OVERLAY_PEAKING:
+    case OVERLAY_FOCUS_PEAKING:
         bool sharp = abs(circle_of_confusion(scale, depth)) <= scale.full_scale;
         return sharp ? mix(picture, MARK, 0.6) : picture;
     case OVERLAY_FOCAL_PLANE:

@@ -12,8 +12,8 @@ pub use brightest::Brightest;
 pub use scene::SceneData;
 pub use shape::ShapeRecord;
 
-use crate::interface::{GROUP_SIZE, constant, overlay, sampler};
-use crate::scene::{CameraModel, Hole, Overlay};
+use crate::interface::{GROUP_SIZE, constant, sampler};
+use crate::scene::{CameraModel, Hole};
 use crate::settings::{Estimator, Sampler, Settings};
 use bytemuck::{Pod, Zeroable};
 
@@ -198,16 +198,8 @@ impl OverlayScale {
             return Self::default();
         };
         let camera = Camera::new(&settings.estimator);
-        let kind = match shown {
-            Overlay::Count => overlay::COUNT,
-            Overlay::Error => overlay::ERROR,
-            Overlay::Depth => overlay::DEPTH,
-            Overlay::Blur => overlay::BLUR,
-            Overlay::FocusPeaking => overlay::PEAKING,
-            Overlay::FocalPlane => overlay::FOCAL_PLANE,
-        };
         Self {
-            kind,
+            kind: shown as u32,
             full_scale: settings.overlay_scale(shown),
             blur: 2.0 * camera.lens_radius / camera.inverse_view_distance.abs(),
             inverse_image_distance: camera.inverse_focal_distance,

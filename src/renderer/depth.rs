@@ -33,7 +33,7 @@ impl Renderer {
             return Ok(());
         };
         self.resolve.prepare_overlay(&self.device, settings.estimator.has_moments())?;
-        if !overlay.shows_depth() {
+        if !overlay.shows_surface() {
             return Ok(());
         }
         let (Some(film), Some(loaded)) = (&mut self.film, &mut self.scene) else {
@@ -57,7 +57,7 @@ impl Renderer {
         film.record_depth_layout(recording);
         let seen = Seen::of(&settings.estimator);
         let wanted =
-            settings.view.overlay.is_some_and(Overlay::shows_depth) && self.seen.as_ref() != Some(&seen);
+            settings.view.overlay.is_some_and(Overlay::shows_surface) && self.seen.as_ref() != Some(&seen);
         let Some(geometry) = loaded.geometry.as_ref().filter(|_| wanted) else {
             return;
         };

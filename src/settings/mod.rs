@@ -10,8 +10,8 @@ pub use sweep::Sweep;
 
 use crate::error::{Error, Result};
 use crate::scene::{
-    Aperture, Camera, CameraModel, Hole, Lens, MAX_BOUNCES, MAX_EXTENT, MAX_LENGTH, METRES_PER_UNIT,
-    MIN_LENGTH, Overlay, Preset, SceneRef, VFOV_DEGREES, View,
+    Aperture, Camera, CameraModel, FullScale, Hole, Lens, MAX_BOUNCES, MAX_EXTENT, MAX_LENGTH,
+    METRES_PER_UNIT, MIN_LENGTH, Overlay, Preset, SceneRef, Source, VFOV_DEGREES, View,
 };
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -26,10 +26,6 @@ pub const F_NUMBERS: RangeInclusive<f64> = 0.01..=1e6;
 pub const SHUTTERS: [f32; 2] = [1e-6, 1e4];
 /// The slowest and fastest film.
 pub const ISOS: [f32; 2] = [0.1, 1e7];
-/// The error at which its overlay is white.
-const ERROR_SCALE: f32 = 0.1;
-/// What part of the picture's height a circle of confusion has at the end of its overlay's scale.
-const BLUR_SCALE: f32 = 30.0;
 /// The smallest and largest circle of confusion that can count as sharp, in pixels.
 pub const TOLERANCES: [f32; 2] = [0.01, 1000.0];
 /// The strongest exposure either way, in stops.
@@ -225,17 +221,16 @@ impl Settings {
     /// Shows an overlay, or none. An error needs moments, which the film then keeps from its start.
     pub fn show(&mut self, overlay: Option<Overlay>) {
         self.view.overlay = overlay;
-        self.estimator.keeps_moments = overlay == Some(Overlay::Error);
+        self.estimator.keeps_moments = needs_moments(overlay);
     }
 
     /// Where the scale of an overlay ends: samples, share, or pixels.
     pub fn overlay_scale(&self, overlay: Overlay) -> f32 {
-        match overlay {
-            Overlay::Count => self.samples as f32,
-            Overlay::Error => ERROR_SCALE,
-            Overlay::Blur => self.estimator.size[1] as f32 / BLUR_SCALE,
-            Overlay::FocusPeaking => self.view.tolerance,
-            Overlay::Depth | Overlay::FocalPlane => 1.0,
+        match overlay.entry().full_scale {
+            FullScale::Samples => self.samples as f32,
+            FullScale::Number(number) => number,
+            FullScale::HeightOver(part) => self.estimator.size[1] as f32 / part,
+            FullScale::Tolerance => self.view.tolerance,
         }
     }
 
@@ -292,7 +287,7 @@ impl Settings {
     /// # Errors
     /// [`Error::OutOfRange`], naming the option, the value and the range.
     pub fn check(&self) -> Result<()> {
-        if self.view.overlay == Some(Overlay::Error) && !self.estimator.has_moments() {
+        if needs_moments(self.view.overlay) && !self.estimator.has_moments() {
             return Err(Error::OutOfRange("the error is not known where no moments are kept".into()));
         }
         let Estimator { lens, hole, size, jitter, max_bounces, noise_threshold, .. } = &self.estimator;
@@ -317,6 +312,10 @@ impl Settings {
         let stops = MAX_EXPOSURE_STOPS;
         in_range("exposure", self.view.exposure_stops, -stops, stops)
     }
+}
+
+fn needs_moments(overlay: Option<Overlay>) -> bool {
+    overlay.is_some_and(|overlay| overlay.entry().source == Source::Moments)
 }
 
 /// NaN is in no range.

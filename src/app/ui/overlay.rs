@@ -2,48 +2,22 @@
 
 use super::widgets::{Layout, combo, named, note_item, tooltip};
 use super::{LOGARITHMIC, MARGIN, Panel};
-use crate::interface::{BEHIND, IN_FRONT, MARK, SLICE};
-use crate::scene::Overlay;
+use crate::scene::OVERLAYS;
 use crate::settings::{Settings, TOLERANCES};
 use imgui::{Condition, Ui, WindowFlags};
 
-const CHOICES: [(Option<Overlay>, &str, &str); 7] = [
-    (None, "Picture", "The picture alone."),
-    (
-        Some(Overlay::FocusPeaking),
-        "Focus peaking",
-        "The picture, with all marked that is sharp: blurred over less than the tolerance.",
-    ),
-    (Some(Overlay::FocalPlane), "Focal plane", "The picture, with what the focal plane cuts marked."),
-    (
-        Some(Overlay::Blur),
-        "Circle of confusion",
-        "Over how many pixels a point blurs: blue in front of the focal plane, orange behind it, white where it is sharp.",
-    ),
-    (Some(Overlay::Depth), "Depth", "The distance along the axis: white at the lens, black far away."),
-    (
-        Some(Overlay::Count),
-        "Sample counts",
-        "How many points each pixel has: black for none, white for as many as the slider says.",
-    ),
-    (
-        Some(Overlay::Error),
-        "Error",
-        "How far off each pixel may still be, as a share of its brightness. Measuring it starts the picture anew.",
-    ),
-];
-
-/// Colours of a legend from left to right, linear, and what stands below: left, middle, right.
-type Scale = (&'static [[f32; 3]], [String; 3]);
+/// Label and help of no overlay.
+const PICTURE: (&str, &str) = ("Picture", "The picture alone.");
 
 const WIDTH: f32 = 260.0;
 
 impl Panel {
     pub(super) fn view(&mut self, ui: &Ui, layout: &mut Layout) {
         let now = self.settings.view.overlay;
-        let shown = CHOICES.iter().find(|entry| entry.0 == now).map_or("", |entry| entry.1);
+        let shown = now.map_or(PICTURE.0, |overlay| overlay.entry().label);
         combo(ui, "Show", shown, "What is shown, instead of the picture or on it.", layout, |layout| {
-            for (choice, label, help) in CHOICES {
+            let overlays = OVERLAYS.iter().map(|entry| (Some(entry.overlay), entry.label, entry.help));
+            for (choice, label, help) in [(None, PICTURE.0, PICTURE.1)].into_iter().chain(overlays) {
                 if ui.selectable_config(label).selected(choice == now).build() {
                     self.settings.show(choice);
                 }
@@ -67,7 +41,8 @@ pub(super) fn legend(ui: &Ui, settings: &Settings) {
         return;
     };
     let [width, height] = ui.io().display_size;
-    let name = CHOICES.iter().find(|entry| entry.0 == Some(overlay)).map_or("", |entry| entry.1);
+    let entry = overlay.entry();
+    let labels = (entry.labels)(settings.overlay_scale(overlay), settings.estimator.lens.focal_distance);
     ui.window("##legend")
         .position([width - MARGIN, height - MARGIN], Condition::Always)
         .position_pivot([1.0, 1.0])
@@ -79,9 +54,8 @@ pub(super) fn legend(ui: &Ui, settings: &Settings) {
                 | WindowFlags::NO_FOCUS_ON_APPEARING,
         )
         .build(|| {
-            ui.text(name);
-            let (colors, labels) = scale(settings, overlay);
-            bar(ui, colors);
+            ui.text(entry.label);
+            bar(ui, entry.colors);
             let [left, middle, right] = &labels;
             let room = ui.content_region_avail()[0];
             ui.text(left);
@@ -91,33 +65,6 @@ pub(super) fn legend(ui: &Ui, settings: &Settings) {
                 ui.text(label);
             }
         });
-}
-
-fn scale(settings: &Settings, overlay: Overlay) -> Scale {
-    let full = settings.overlay_scale(overlay);
-    let distance = settings.estimator.lens.focal_distance;
-    let [none, text] = [String::new, String::new];
-    let labels = |left: String, middle: String, right: String| [left, middle, right];
-    match overlay {
-        Overlay::Count => (&[[0.0; 3], [1.0; 3]], labels("0".into(), none(), format!("{full:.0} points"))),
-        Overlay::Error => (
-            &[[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0; 3]],
-            labels("0".into(), none(), format!("{:.0}% or more", 100.0 * full)),
-        ),
-        Overlay::Depth => (
-            // Even steps of the share F / (F + depth).
-            &[[1.0; 3], [0.75; 3], [0.5; 3], [0.25; 3], [0.0; 3]],
-            labels("lens".into(), format!("{distance:.4}"), "far away".into()),
-        ),
-        Overlay::Blur => (
-            &[IN_FRONT, [1.0; 3], BEHIND],
-            labels(format!("{full:.0} px in front"), "sharp".into(), format!("behind {full:.0} px")),
-        ),
-        Overlay::FocusPeaking => {
-            (&[MARK; 2], labels(format!("blurred over {full:.2} px at most"), text(), none()))
-        }
-        Overlay::FocalPlane => (&[SLICE; 2], labels(format!("at a depth of {distance:.4}"), text(), none())),
-    }
 }
 
 /// A bar that goes evenly from colour to colour, in linear light as the picture does.

@@ -1,0 +1,173 @@
+//! What can be shown instead of the picture, or on it. An overlay is a name in `overlay` of `src/interface.rs`, an
+//! entry of [`OVERLAYS`], and a case in `shaders/core/overlay.glsl`.
+
+use crate::interface::{BEHIND, IN_FRONT, MARK, SLICE, overlay};
+
+/// An overlay, by the code that the shaders know it by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u32)]
+#[allow(missing_docs, reason = "the help of each is in its entry")]
+pub enum Overlay {
+    FocusPeaking = overlay::FOCUS_PEAKING,
+    FocalPlane = overlay::FOCAL_PLANE,
+    CircleOfConfusion = overlay::CIRCLE_OF_CONFUSION,
+    Depth = overlay::DEPTH,
+    Count = overlay::COUNT,
+    Error = overlay::ERROR,
+}
+
+/// Everything that the program says of an overlay.
+#[derive(Debug)]
+pub struct Entry {
+    /// Which one it is.
+    pub overlay: Overlay,
+    /// What it is called on the command line and in scene files.
+    pub name: &'static str,
+    /// What it is called in the viewer.
+    pub label: &'static str,
+    /// One sentence or two about what it shows.
+    pub help: &'static str,
+    /// What it is computed from.
+    pub source: Source,
+    /// Where its scale ends.
+    pub full_scale: FullScale,
+    /// The colours of its legend at equal distances from left to right, linear.
+    pub colors: &'static [[f32; 3]],
+    /// What stands below the legend on the left, in the middle and on the right, from the end of the scale and the
+    /// focal distance.
+    pub labels: fn(f32, f32) -> [String; 3],
+}
+
+/// What an overlay is computed from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Source {
+    /// The means and counts of the film.
+    Film,
+    /// The second moments of the film, which it must have had from its start.
+    Moments,
+    /// What each pixel's middle sees through the centre of the lens.
+    Surface,
+}
+
+/// Where the scale of an overlay ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FullScale {
+    /// At the number of samples that is wanted.
+    Samples,
+    /// At this number.
+    Number(f32),
+    /// At the picture's height in pixels over this.
+    HeightOver(f32),
+    /// At [`super::View::tolerance`].
+    Tolerance,
+}
+
+/// Every overlay, in the order of menus and help texts.
+pub const OVERLAYS: [Entry; 6] = [
+    Entry {
+        overlay: Overlay::FocusPeaking,
+        name: "focus-peaking",
+        label: "Focus peaking",
+        help: "The picture, with all marked that is sharp: blurred over less than the tolerance.",
+        source: Source::Surface,
+        full_scale: FullScale::Tolerance,
+        colors: &[MARK; 2],
+        labels: |full, _| labels(&format!("blurred over {full:.2} px at most"), "", ""),
+    },
+    Entry {
+        overlay: Overlay::FocalPlane,
+        name: "focal-plane",
+        label: "Focal plane",
+        help: "The picture, with what the focal plane cuts marked.",
+        source: Source::Surface,
+        full_scale: FullScale::Number(1.0),
+        colors: &[SLICE; 2],
+        labels: |_, distance| labels(&format!("at a depth of {distance:.4}"), "", ""),
+    },
+    Entry {
+        overlay: Overlay::CircleOfConfusion,
+        name: "circle-of-confusion",
+        label: "Circle of confusion",
+        help: "Over how many pixels a point blurs: blue in front of the focal plane, orange behind it, white where it is sharp.",
+        source: Source::Surface,
+        full_scale: FullScale::HeightOver(30.0),
+        colors: &[IN_FRONT, [1.0; 3], BEHIND],
+        labels: |full, _| labels(&format!("{full:.0} px in front"), "sharp", &format!("behind {full:.0} px")),
+    },
+    Entry {
+        overlay: Overlay::Depth,
+        name: "depth",
+        label: "Depth",
+        help: "The distance along the axis: white at the lens, grey in the focal plane, black far away.",
+        source: Source::Surface,
+        full_scale: FullScale::Number(1.0),
+        // Even steps of the share F / (F + depth).
+        colors: &[[1.0; 3], [0.75; 3], [0.5; 3], [0.25; 3], [0.0; 3]],
+        labels: |_, distance| labels("lens", &format!("{distance:.4}"), "far away"),
+    },
+    Entry {
+        overlay: Overlay::Count,
+        name: "count",
+        label: "Sample counts",
+        help: "How many points each pixel has: black for none, white for as many as the slider says.",
+        source: Source::Film,
+        full_scale: FullScale::Samples,
+        colors: &[[0.0; 3], [1.0; 3]],
+        labels: |full, _| labels("0", "", &format!("{full:.0} points")),
+    },
+    Entry {
+        overlay: Overlay::Error,
+        name: "error",
+        label: "Error",
+        help: "How far off each pixel may still be, as a share of its brightness. Measuring it starts the picture anew.",
+        source: Source::Moments,
+        full_scale: FullScale::Number(0.1),
+        colors: &[[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0; 3]],
+        labels: |full, _| labels("0", "", &format!("{:.0}% or more", 100.0 * full)),
+    },
+];
+
+fn labels(left: &str, middle: &str, right: &str) -> [String; 3] {
+    [left, middle, right].map(str::to_owned)
+}
+
+impl Overlay {
+    /// Every overlay, by its name.
+    pub const NAMES: [(&'static str, Self); OVERLAYS.len()] = {
+        let mut names = [("", Self::Count); OVERLAYS.len()];
+        let mut i = 0;
+        while i < names.len() {
+            names[i] = (OVERLAYS[i].name, OVERLAYS[i].overlay);
+            i += 1;
+        }
+        names
+    };
+
+    /// What the program says of it.
+    pub fn entry(self) -> &'static Entry {
+        static ENTRIES: &[Entry] = &OVERLAYS;
+        ENTRIES.iter().find(|entry| entry.overlay == self).expect("every overlay has an entry: a test looks")
+    }
+
+    /// Whether it needs what each pixel's middle sees.
+    pub fn shows_surface(self) -> bool {
+        self.entry().source == Source::Surface
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{OVERLAYS, overlay};
+
+    /// Catches an overlay without an entry, which would end the program once it is shown, and one whose name in
+    /// scene files is not its name in the shaders.
+    #[test]
+    fn every_overlay_has_an_entry() {
+        let entries =
+            OVERLAYS.map(|entry| (entry.name.replace('-', "_").to_uppercase(), entry.overlay as u32));
+        for (code, name) in (0..).zip(overlay::NAMES).skip(1) {
+            assert!(entries.contains(&((*name).to_owned(), code)), "{name} has no entry");
+        }
+        assert_eq!(entries.len() + 1, overlay::NAMES.len());
+    }
+}
