@@ -1,7 +1,6 @@
 //! What has to hold of everything that is accepted.
 
 use std::path::Path;
-use thinlens::cli::settings_of_arguments;
 use thinlens::gpu_types::SceneData;
 use thinlens::scene::{self, SceneRef};
 use thinlens::settings::Settings;
@@ -9,7 +8,7 @@ use thinlens::settings::Settings;
 /// Settings that can be rendered come back from their own arguments.
 pub fn arguments(settings: &Settings) {
     let arguments = settings.arguments();
-    let again = settings_of_arguments(&arguments)
+    let again = Settings::of_arguments(&arguments)
         .unwrap_or_else(|error| panic!("arguments that are made are refused: {error} ({arguments:?})"));
     let again = of_one_loading(again, settings);
     assert_eq!(again, *settings, "other settings come of their own arguments {arguments:?}");

@@ -1,8 +1,9 @@
 //! The command line: parse, choose window or file, print the error.
 
 use std::process::ExitCode;
-use thinlens::cli::{self, Command, RenderArgs, ViewArgs, settings_of_arguments};
+use thinlens::cli::{self, Command, RenderArgs, ViewArgs};
 use thinlens::error::{Error, Result};
+use thinlens::settings::Settings;
 use thinlens::{app, bench, interrupt, output, verify};
 
 fn main() -> ExitCode {
@@ -62,14 +63,13 @@ fn view(args: &ViewArgs) -> Result<()> {
     let named = || output::load(false, || args.settings.of_window());
     let again = args.settings.is_plain() && !memory.arguments.is_empty();
     // What was there the last time may be gone by now.
-    let (settings, initial, message) = match again.then(|| settings_of_arguments(&memory.arguments)) {
+    let (settings, initial, message) = match again.then(|| Settings::of_arguments(&memory.arguments)) {
         Some(Ok(settings)) => (settings.clone(), settings.of_scene_alone(), None),
         Some(Err(error)) => (named()?, named()?, Some(error.to_string())),
         None => named().map(|settings| (settings.clone(), settings, None))?,
     };
-    let (size, reopen) = (args.settings.size, settings_of_arguments);
-    match app::run(app::Options { settings, initial, size, memory, reopen, message, device: device.clone() })
-    {
+    let size = args.settings.size();
+    match app::run(app::Options { settings, initial, size, memory, message, device: device.clone() }) {
         Err(Error::NoDisplay(why)) => output::render_instead(args.settings.of_file()?, device, &why),
         outcome => outcome,
     }

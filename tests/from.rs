@@ -4,7 +4,6 @@ mod common;
 
 use common::{Gpu, decode_png, run};
 use std::path::Path;
-use thinlens::cli::settings_of_arguments;
 use thinlens::output::{self, Origin};
 
 use thinlens::scene::{self, CameraModel, Overlay, SceneRef};
@@ -208,7 +207,7 @@ fn arguments_give_the_same_settings_to_the_bit() {
     for _ in 0..200 {
         let settings = changed(&scene, &mut random);
         let arguments = settings.arguments();
-        let mut again = settings_of_arguments(&arguments).expect("settings");
+        let mut again = Settings::of_arguments(&arguments).expect("settings");
         // Scenes are equal where they are the same loading.
         again.estimator.scene = scene.clone();
         assert_eq!(again, settings, "{arguments:?}");

@@ -16,10 +16,6 @@ pub use memory::Memory;
 
 use crate::error::{Error, Result};
 use crate::settings::{DeviceChoice, Settings};
-use std::ffi::OsString;
-
-/// Settings from arguments, as [`Settings::arguments`] gives them.
-pub type Reopen = fn(&[OsString]) -> Result<Settings>;
 
 /// What the viewer starts with.
 #[derive(Debug, Clone)]
@@ -32,8 +28,6 @@ pub struct Options {
     pub size: Option<[u32; 2]>,
     /// What there was the last time.
     pub memory: Memory,
-    /// How settings come of the arguments that a picture carries.
-    pub reopen: Reopen,
     /// What to tell the user at first.
     pub message: Option<String>,
     /// Where to render.

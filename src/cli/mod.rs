@@ -2,9 +2,9 @@
 
 mod settings;
 
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::scene::{self, BUILTINS, SceneRef};
-use crate::settings::{DEFAULT_SAMPLES, DeviceChoice, Place, Settings, Sweep};
+use crate::settings::{DEFAULT_SAMPLES, DeviceChoice, Place, Settings, Sweep, size};
 use clap::{Args, Parser, Subcommand};
 pub use settings::SettingsArgs;
 use std::ffi::OsString;
@@ -83,7 +83,7 @@ pub struct RenderArgs {
         require_equals = true,
         default_missing_value = "centre",
         value_parser = parse_place,
-        conflicts_with = "focal_distance"
+        conflicts_with = "focal-distance"
     )]
     pub autofocus: Option<Place>,
     /// The picture: .png (8-bit sRGB) or .exr (linear f32 R, G, B, and count: samples per pixel)
@@ -135,13 +135,7 @@ pub struct SweepArgs {
 
 /// `thinlens save`.
 #[derive(Debug, Args)]
-#[command(
-    mut_arg("samples", |samples| samples.hide(true)),
-    mut_arg("sampler", |sampler| sampler.hide(true)),
-    mut_arg("seed", |seed| seed.hide(true)),
-    mut_arg("jitter", |jitter| jitter.hide(true)),
-    mut_arg("noise_threshold", |threshold| threshold.hide(true))
-)]
+#[command(mut_args(settings::for_saving))]
 pub struct SaveArgs {
     /// What to save. How it is sampled is not part of a scene.
     #[command(flatten)]
@@ -153,17 +147,7 @@ pub struct SaveArgs {
 
 /// `thinlens verify`.
 #[derive(Debug, Args)]
-#[command(
-    mut_arg("scene", |scene| scene.help("A built-in scene (see thinlens scenes), .toml or .obj file [default: every built-in one]")),
-    mut_arg("samples", |samples| samples.help("Antialiasing points per pixel [default: 16]")),
-    mut_arg("size", |size| size.help("Picture size in pixels [default: 128x96]")),
-    mut_arg("noise_threshold", |threshold| threshold.hide(true)),
-    mut_arg("overlay", |overlay| overlay.hide(true)),
-    mut_arg("tolerance", |tolerance| tolerance.hide(true)),
-    mut_arg("iso", |iso| iso.hide(true)),
-    mut_arg("exposure_lock", |lock| lock.hide(true)),
-    mut_arg("exposure", |exposure| exposure.hide(true))
-)]
+#[command(mut_args(settings::for_verifying))]
 pub struct VerifyArgs {
     /// What to render.
     #[command(flatten)]
@@ -204,26 +188,6 @@ pub struct DeviceArgs {
     /// Check every Vulkan call with the Khronos validation layer; any message is a failure
     #[arg(long)]
     pub validation: bool,
-}
-
-/// The settings that these arguments give: those of a picture, as [`Settings::arguments`] has them.
-///
-/// # Errors
-/// [`crate::error::Error::OutOfRange`] for what is none, or of the scene.
-pub fn settings_of_arguments(arguments: &[OsString]) -> Result<Settings> {
-    // Like `RenderArgs`, but without anything that is not the picture's. No doc comment: clap would show it.
-    #[derive(Parser)]
-    #[command(no_binary_name = true)]
-    struct Picture {
-        #[command(flatten)]
-        settings: SettingsArgs,
-    }
-    let picture = Picture::try_parse_from(arguments).map_err(|error| {
-        let text = error.to_string();
-        let what = text.lines().next().unwrap_or_default().trim_start_matches("error: ");
-        Error::OutOfRange(format!("the saved settings cannot be used: {what}"))
-    })?;
-    picture.settings.of_file()
 }
 
 /// The command line that the program was started with. Wrong use and help end the program here.
@@ -299,9 +263,5 @@ fn parse_place(text: &str) -> Result<Place, String> {
 }
 
 fn parse_size(text: &str) -> Result<[u32; 2], String> {
-    let parse = || {
-        let (width, height) = text.split_once(['x', 'X'])?;
-        Some([width.parse().ok()?, height.parse().ok()?])
-    };
-    parse().ok_or_else(|| "a size is WIDTHxHEIGHT in pixels, such as 1280x720".into())
+    size(text).ok_or_else(|| "a size is WIDTHxHEIGHT in pixels, such as 1280x720".into())
 }

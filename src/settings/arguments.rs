@@ -1,16 +1,17 @@
 //! Settings as the arguments of the command line that renders them: for people to copy, and for pictures to
 //! carry.
 
-use super::{Sampler, Settings};
-use crate::scene::{BUILTINS, CameraModel, Overlay};
-use glam::DVec3;
+use super::setting::NO_FILE;
+use super::{Changes, SETTINGS, Settings, Value};
+use crate::error::{Error, Result};
+use crate::scene::{self, BUILTINS, SceneRef};
+use clap::{Arg, Args};
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 impl Settings {
     /// What follows `thinlens render` to get this picture again, but for where to: the scene as it was named,
-    /// size and samples, and what is not as the scene has it. Numbers have as many digits as they need to come
-    /// back the same.
+    /// size and samples, and what is not as the scene has it.
     pub fn arguments(&self) -> Vec<OsString> {
         self.arguments_with(Path::to_path_buf)
     }
@@ -21,56 +22,39 @@ impl Settings {
     }
 
     fn arguments_with(&self, named: impl Fn(&Path) -> PathBuf) -> Vec<OsString> {
-        let (estimator, view) = (&self.estimator, &self.view);
-        let scene = &*estimator.scene;
-        let plain = Self::of_scene(estimator.scene.clone());
-        let mut list = Arguments(vec![scene_argument(&scene.source, &named)]);
-        let [width, height] = estimator.size;
-        list.push("size", format!("{width}x{height}"));
-        list.push("samples", self.samples);
-
-        let (camera, of_scene) = (&estimator.camera, &scene.camera);
-        list.vector("eye", camera.eye, of_scene.eye);
-        list.vector("look-at", camera.look_at, of_scene.look_at);
-        list.vector("up", camera.up, of_scene.up);
-        list.change("vfov", camera.vfov_degrees(), of_scene.vfov_degrees());
-        list.change("metres-per-unit", camera.metres_per_unit, of_scene.metres_per_unit);
-
-        let model = |model| name_of(&CameraModel::NAMES, &model);
-        list.change("camera", model(estimator.model), model(scene.model));
-        list.change("lens-diameter", estimator.lens.diameter, scene.lens.diameter);
-        list.change("focal-distance", estimator.lens.focal_distance, scene.lens.focal_distance);
-        list.change("hole-diameter", estimator.hole.diameter, scene.hole.diameter);
-        list.change("upright", estimator.hole.upright, scene.hole.upright);
-
-        let (aperture, of_scene) = (&estimator.aperture, &scene.aperture);
-        list.change("blades", aperture.blades, of_scene.blades);
-        list.change("blade-rotation", aperture.rotation_degrees, of_scene.rotation_degrees);
-        list.change("roundness", aperture.roundness, of_scene.roundness);
-        list.change("anamorphic", aperture.anamorphic, of_scene.anamorphic);
-        list.change("cats-eye", aperture.cats_eye, of_scene.cats_eye);
-        if aperture.image != of_scene.image {
-            let image = aperture.image.as_ref().map_or("none".into(), |image| named(&image.file));
-            let mut argument = OsString::from("--aperture-image=");
-            argument.push(image);
-            list.0.push(argument);
+        let scene = &self.estimator.scene;
+        let plain = Self::of_scene(scene.clone());
+        let mut arguments = vec![scene_argument(&scene.source, &named)];
+        for setting in SETTINGS.iter().filter(|setting| !setting.is_alias()) {
+            let value = setting.get(self);
+            // The size of a picture and its samples are not the scene's, wherever it is rendered again.
+            let always = ["size", "samples"].contains(&setting.flag);
+            if always || value != setting.get(&plain) {
+                let mut argument = OsString::from(format!("--{}=", setting.flag));
+                argument.push(text(&value, &named));
+                arguments.push(argument);
+            }
         }
+        arguments
+    }
 
-        list.change("shutter", estimator.shutter, scene.shutter);
-        list.change("iso", view.iso, plain.view.iso);
-        list.change("exposure-lock", view.exposure_lock, plain.view.exposure_lock);
-        list.change("exposure", view.exposure_stops, plain.view.exposure_stops);
-        let overlay = |shown: Option<Overlay>| shown.map_or("none", |shown| name_of(&Overlay::NAMES, &shown));
-        list.change("overlay", overlay(view.overlay), overlay(plain.view.overlay));
-        list.change("tolerance", view.tolerance, plain.view.tolerance);
-
-        list.change("jitter", estimator.jitter, plain.estimator.jitter);
-        list.change("max-bounces", estimator.max_bounces, scene.max_bounces);
-        let sampler = |sampler| name_of(&Sampler::NAMES, &sampler);
-        list.change("sampler", sampler(estimator.sampler), sampler(plain.estimator.sampler));
-        list.change("noise-threshold", estimator.noise_threshold, plain.estimator.noise_threshold);
-        list.change("seed", estimator.seed, plain.estimator.seed);
-        list.0
+    /// The settings of such arguments.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for what are none, or of the scene.
+    pub fn of_arguments(arguments: &[OsString]) -> Result<Self> {
+        let command = Changes::augment_args(clap::Command::new("picture").no_binary_name(true));
+        let command = command.arg(Arg::new("scene").value_parser(clap::value_parser!(PathBuf)));
+        let matches = command.try_get_matches_from(arguments).map_err(|error| {
+            let text = error.to_string();
+            let what = text.lines().next().unwrap_or_default().trim_start_matches("error: ");
+            Error::OutOfRange(format!("the saved settings cannot be used: {what}"))
+        })?;
+        let default = || PathBuf::from(BUILTINS[0].name);
+        let name = matches.get_one::<PathBuf>("scene").cloned().unwrap_or_else(default);
+        let mut settings = Self::of_scene(SceneRef::new(scene::load(name)?));
+        Changes::of_matches(&matches).apply(&mut settings)?;
+        Ok(settings)
     }
 
     /// The same as a line for a shell.
@@ -80,23 +64,17 @@ impl Settings {
     }
 }
 
-struct Arguments(Vec<OsString>);
-
-impl Arguments {
-    fn push(&mut self, name: &str, value: impl std::fmt::Display) {
-        self.0.push(format!("--{name}={value}").into());
-    }
-
-    fn change<T: PartialEq + std::fmt::Display>(&mut self, name: &str, value: T, of_scene: T) {
-        if value != of_scene {
-            self.push(name, value);
-        }
-    }
-
-    fn vector(&mut self, name: &str, value: DVec3, of_scene: DVec3) {
-        if value != of_scene {
-            self.push(name, format!("{},{},{}", value.x, value.y, value.z));
-        }
+/// A value as an option takes it. Numbers have as many digits as they need to come back the same.
+fn text(value: &Value, named: impl Fn(&Path) -> PathBuf) -> OsString {
+    match value {
+        Value::Single(number) => number.to_string().into(),
+        Value::Double(number) => number.to_string().into(),
+        Value::Whole(number) => number.to_string().into(),
+        Value::Switch(is) => is.to_string().into(),
+        Value::Vector(place) => format!("{},{},{}", place.x, place.y, place.z).into(),
+        Value::Size([width, height]) => format!("{width}x{height}").into(),
+        Value::Name(name) => name.into(),
+        Value::File(file) => file.as_deref().map_or(NO_FILE.into(), |file| named(file).into()),
     }
 }
 
@@ -127,9 +105,4 @@ pub fn quoted(word: &OsStr) -> String {
             format!("$'{}'", text.collect::<String>())
         }
     }
-}
-
-/// What a value is called on the command line and in scene files.
-pub(super) fn name_of<T: PartialEq>(names: &[(&'static str, T)], value: &T) -> &'static str {
-    names.iter().find(|(_, named)| named == value).map_or("", |(name, _)| name)
 }

@@ -1,27 +1,32 @@
 //! Everything a user can set, in the two halves that decide when the film starts anew.
 
 mod arguments;
+mod list;
+mod options;
 pub mod saved_names;
 mod scene_file;
+mod setting;
 mod sweep;
 
 pub use arguments::quoted;
+pub use list::{SETTINGS, setting};
+pub use options::Changes;
+pub use setting::{Access, Called, Field, Key, Role, Setting, Value, size};
 pub use sweep::Sweep;
 
 use crate::error::{Error, Result};
 use crate::scene::{
-    Aperture, Camera, CameraModel, FullScale, Hole, Lens, MAX_BOUNCES, MAX_EXTENT, MAX_LENGTH,
-    METRES_PER_UNIT, MIN_LENGTH, Overlay, Preset, SceneRef, Source, VFOV_DEGREES, View,
+    Aperture, Camera, CameraModel, FullScale, Hole, Lens, Overlay, Preset, SceneRef, Source, View,
 };
-use std::ops::RangeInclusive;
+use setting::in_range;
 use std::path::Path;
 
 /// The film's count is held in f32, which is exact up to here.
 pub const MAX_SAMPLES: u32 = 1 << 24;
-/// The widest jitter, in pixels. Accumulation looks at `ceil(jitter / 2 - 1 / 2)` pixels around.
-pub const MAX_JITTER: f32 = 15.0;
+/// The narrowest and widest jitter, in pixels. Accumulation looks at `ceil(jitter / 2 - 1 / 2)` pixels around.
+pub const JITTERS: [f32; 2] = [0.0, 15.0];
 /// The smallest and largest f-number.
-pub const F_NUMBERS: RangeInclusive<f64> = 0.01..=1e6;
+pub const F_NUMBERS: [f64; 2] = [0.01, 1e6];
 /// The shortest and longest time that the shutter can be open, in seconds.
 pub const SHUTTERS: [f32; 2] = [1e-6, 1e4];
 /// The slowest and fastest film.
@@ -29,7 +34,7 @@ pub const ISOS: [f32; 2] = [0.1, 1e7];
 /// The smallest and largest circle of confusion that can count as sharp, in pixels.
 pub const TOLERANCES: [f32; 2] = [0.01, 1000.0];
 /// The strongest exposure either way, in stops.
-pub const MAX_EXPOSURE_STOPS: f32 = 20.0;
+pub const EXPOSURES: [f32; 2] = [-20.0, 20.0];
 /// Samples per pixel of a headless picture, unless another number is asked for.
 pub const DEFAULT_SAMPLES: u32 = 64;
 /// Jitter in pixels across: a sample stays within its pixel.
@@ -141,13 +146,8 @@ impl Estimator {
     }
 
     /// Gives the lens this f-number.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`].
-    pub fn set_f_number(&mut self, f_number: f64) -> Result<()> {
-        in_range("f-number", f_number, *F_NUMBERS.start(), *F_NUMBERS.end())?;
+    pub fn set_f_number(&mut self, f_number: f64) {
         self.lens.diameter = self.camera.diameter_of_f_number(f_number) as f32;
-        Ok(())
     }
 }
 
@@ -262,55 +262,37 @@ impl Settings {
         self.view.exposure_stops.exp2() * light as f32
     }
 
-    fn check_camera(&self) -> Result<()> {
-        let camera = &self.estimator.camera;
-        for (name, vector) in [("eye", camera.eye), ("look-at", camera.look_at), ("up", camera.up)] {
-            for part in vector.to_array() {
-                in_range(name, part, -f64::from(MAX_LENGTH), f64::from(MAX_LENGTH))?;
-            }
-        }
-        in_range("vfov", camera.vfov_radians.to_degrees(), *VFOV_DEGREES.start(), *VFOV_DEGREES.end())?;
-        in_range(
-            "metres-per-unit",
-            camera.metres_per_unit,
-            *METRES_PER_UNIT.start(),
-            *METRES_PER_UNIT.end(),
-        )?;
-        match camera.fault() {
-            Some(fault) => Err(Error::OutOfRange(format!("the camera has no view: {fault}"))),
-            None => Ok(()),
-        }
-    }
-
-    /// Holds every number against its range.
+    /// Holds every number against its range, and what belongs together against each other.
     ///
     /// # Errors
     /// [`Error::OutOfRange`], naming the option, the value and the range.
     pub fn check(&self) -> Result<()> {
+        self.check_as(Called::Flag)
+    }
+
+    /// Likewise, where the user calls the settings otherwise.
+    ///
+    /// # Errors
+    /// As [`Settings::check`].
+    pub fn check_as(&self, called: Called) -> Result<()> {
+        let wrong = |fault: String| Err(Error::OutOfRange(fault));
+        for setting in SETTINGS.iter().filter(|setting| !setting.is_alias()) {
+            setting.check(&setting.get(self), called)?;
+        }
+        let Estimator { camera, aperture, jitter, .. } = &self.estimator;
         if needs_moments(self.view.overlay) && !self.estimator.has_moments() {
-            return Err(Error::OutOfRange("the error is not known where no moments are kept".into()));
+            return wrong("the error is not known where no moments are kept".into());
         }
-        let Estimator { lens, hole, size, jitter, max_bounces, noise_threshold, .. } = &self.estimator;
-        in_range("size: width", size[0], 1, MAX_EXTENT)?;
-        in_range("size: height", size[1], 1, MAX_EXTENT)?;
-        self.check_camera()?;
-        in_range("lens-diameter", lens.diameter, 0.0, MAX_LENGTH)?;
-        in_range("focal-distance", lens.focal_distance, MIN_LENGTH, MAX_LENGTH)?;
-        in_range("hole-diameter", hole.diameter, 0.0, MAX_LENGTH)?;
-        if let Some(fault) = self.estimator.aperture.fault() {
-            return Err(Error::OutOfRange(fault));
+        if let Some(fault) = camera.fault() {
+            return wrong(format!("the camera has no view: {fault}"));
         }
-        in_range("shutter", self.estimator.shutter, SHUTTERS[0], SHUTTERS[1])?;
-        in_range("tolerance", self.view.tolerance, TOLERANCES[0], TOLERANCES[1])?;
-        in_range("iso", self.view.iso, ISOS[0], ISOS[1])?;
-        in_range("jitter", *jitter, 0.0, MAX_JITTER)?;
-        in_range("max-bounces", *max_bounces, 0, MAX_BOUNCES)?;
-        in_range("noise-threshold", *noise_threshold, 0.0, 1.0)?;
+        if let Some(fault) = aperture.fault() {
+            return wrong(fault);
+        }
         // Chance lands more than its share in a pixel: by 16 standard deviations, never that many.
         let most = if *jitter > DEFAULT_JITTER { MAX_SAMPLES - (1 << 16) } else { MAX_SAMPLES };
-        in_range("samples", self.samples, 1, most)?;
-        let stops = MAX_EXPOSURE_STOPS;
-        in_range("exposure", self.view.exposure_stops, -stops, stops)
+        let samples = || setting("samples").name(called);
+        in_range(self.samples, [1, most]).or_else(|fault| wrong(format!("{} {fault}", samples())))
     }
 }
 
@@ -318,10 +300,12 @@ fn needs_moments(overlay: Option<Overlay>) -> bool {
     overlay.is_some_and(|overlay| overlay.entry().source == Source::Moments)
 }
 
-/// NaN is in no range.
-fn in_range<T: PartialOrd + std::fmt::Display>(name: &str, value: T, low: T, high: T) -> Result<()> {
-    if value >= low && value <= high {
-        return Ok(());
-    }
-    Err(Error::OutOfRange(format!("{name} is {value}, but must be from {low} to {high}")))
+/// What a value is called on the command line and in scene files.
+fn name_of<T: PartialEq>(names: &[(&'static str, T)], value: &T) -> &'static str {
+    names.iter().find(|(_, named)| named == value).map_or("", |(name, _)| name)
+}
+
+/// The value of this name.
+fn named<T: Copy>(names: &[(&'static str, T)], name: &str) -> Option<T> {
+    names.iter().find(|(known, _)| *known == name).map(|(_, value)| *value)
 }

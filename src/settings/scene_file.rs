@@ -1,7 +1,7 @@
 //! Settings as a scene file: the scene's own, with the camera, its lens and the view as they are now.
 
-use super::arguments::{name_of, quoted};
-use super::{MAX_EXPOSURE_STOPS, Settings, in_range};
+use super::arguments::quoted;
+use super::{EXPOSURES, Settings, in_range, name_of};
 use crate::error::{Error, Result};
 use crate::scene::{self, CameraModel, Loaded, Overlay, Scene};
 use glam::DVec3;
@@ -107,7 +107,8 @@ impl Settings {
         let brightness = self.exposure();
         let relative = brightness != view.exposure_stops.exp2();
         let stops = if relative { brightness.log2() } else { view.exposure_stops };
-        in_range("exposure of the saved scene", stops, -MAX_EXPOSURE_STOPS, MAX_EXPOSURE_STOPS)?;
+        in_range(stops, EXPOSURES)
+            .map_err(|fault| Error::OutOfRange(format!("exposure of the saved scene {fault}")))?;
         keys.number("exposure", stops, own.exposure_stops);
         keys.change("exposure_lock", view.exposure_lock, own.exposure_lock, |is| is);
         keys.number("tolerance", view.tolerance, own.tolerance);

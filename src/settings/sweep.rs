@@ -1,8 +1,8 @@
 //! One picture for each of several lenses.
 
-use super::Settings;
+use super::{Changes, Settings, Value};
 use crate::error::{Error, Result};
-use crate::scene::{CameraModel, Lens};
+use crate::scene::CameraModel;
 
 /// Pictures that one sheet can hold.
 const MOST: usize = 64;
@@ -29,31 +29,18 @@ impl Sweep {
                 "a sweep needs a lens, which this camera has not; add --camera thin-lens".into(),
             ));
         }
-        let picture = |change: &dyn Fn(&mut Settings) -> Result<()>| {
+        let picture = |flag: &str, value: Value| {
             let mut settings = settings.clone();
-            change(&mut settings)?;
-            settings.check()?;
+            Changes::of(flag, value).apply(&mut settings)?;
             Ok(settings)
         };
-        let lens = |change: fn(&mut Lens, f32)| {
-            move |value: &f32| {
-                picture(&|settings| {
-                    change(&mut settings.estimator.lens, *value);
-                    Ok(())
-                })
-            }
-        };
+        let single = |flag: &'static str| move |value: &f32| picture(flag, Value::Single(*value));
         let pictures: Result<Vec<Settings>> = match self {
             Self::FNumbers(values) => {
-                let stop = |value: &f64| picture(&|settings| settings.estimator.set_f_number(*value));
-                values.iter().map(stop).collect()
+                values.iter().map(|value| picture("f-number", Value::Double(*value))).collect()
             }
-            Self::LensDiameters(values) => {
-                values.iter().map(lens(|lens, value| lens.diameter = value)).collect()
-            }
-            Self::FocalDistances(values) => {
-                values.iter().map(lens(|lens, value| lens.focal_distance = value)).collect()
-            }
+            Self::LensDiameters(values) => values.iter().map(single("lens-diameter")).collect(),
+            Self::FocalDistances(values) => values.iter().map(single("focal-distance")).collect(),
         };
         let pictures = pictures?;
         if pictures.is_empty() || pictures.len() > MOST {

@@ -12,9 +12,9 @@ mod overlay;
 mod sampling;
 mod widgets;
 
+use super::Options;
 use super::diagram::Diagram;
 use super::memory::Memory;
-use super::{Options, Reopen};
 use crate::error::Error;
 use crate::output::{Origin, PictureFormat};
 use crate::renderer::{Picked, Progress};
@@ -61,8 +61,6 @@ pub(super) struct Panel {
     /// What was opened before, the latest first.
     recent: Vec<PathBuf>,
     files: Files,
-    /// Settings from the arguments that a picture carries.
-    reopen: Reopen,
     message: Option<String>,
     pub(super) optics: Optics,
     /// The picture that is held to compare with, if one is.
@@ -140,7 +138,6 @@ impl Panel {
             scenes: BUILTINS.iter().map(|builtin| builtin.name.into()).collect(),
             recent: options.memory.recent.clone(),
             files: Files::default(),
-            reopen: options.reopen,
             message: options.message.clone().or_else(|| options.settings.estimator.too_coarse()),
             optics: Optics { open: options.memory.optics, ..Optics::default() },
             held: None,
@@ -336,7 +333,7 @@ impl Panel {
     /// Opens a scene, a mesh, or a picture with its settings; or says why not.
     pub(super) fn open(&mut self, name: &Path) {
         let opened = match PictureFormat::of(name) {
-            Some(_) => Origin::read(name).and_then(|origin| (self.reopen)(&origin.arguments)),
+            Some(_) => Origin::read(name).and_then(|origin| Settings::of_arguments(&origin.arguments)),
             None => scene::load(name).map(|loaded| self.with_scene(SceneRef::new(loaded))),
         };
         match opened {

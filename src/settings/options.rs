@@ -1,0 +1,111 @@
+//! The list of settings as options of a command line, and what was given there.
+
+use super::setting::file;
+use super::{Access, Called, Role, SETTINGS, Setting, Settings, Value, setting};
+use crate::error::Result;
+use clap::builder::{PathBufValueParser, PossibleValuesParser, TypedValueParser, ValueParser};
+use clap::{Arg, ArgMatches, Command, FromArgMatches};
+
+/// What is to be changed of settings, in the order of the list.
+#[derive(Clone, Default)]
+pub struct Changes(Vec<(&'static Setting, Value)>);
+
+impl Changes {
+    /// What was given.
+    pub fn of_matches(matches: &ArgMatches) -> Self {
+        let given = |setting: &'static Setting| {
+            matches.get_one::<Value>(setting.flag).map(|value| (setting, value.clone()))
+        };
+        Self(SETTINGS.iter().filter_map(given).collect())
+    }
+
+    /// Of one setting, by its flag.
+    pub fn of(flag: &str, value: Value) -> Self {
+        Self(vec![(setting(flag), value)])
+    }
+
+    /// Whether nothing was given.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// What was given for the setting with this flag.
+    pub fn get(&self, flag: &str) -> Option<&Value> {
+        self.0.iter().find(|(setting, _)| setting.flag == flag).map(|(_, value)| value)
+    }
+
+    /// Changes what was given, and leaves the rest.
+    ///
+    /// # Errors
+    /// [`crate::error::Error::OutOfRange`], or of an image.
+    pub fn apply(&self, settings: &mut Settings) -> Result<()> {
+        for (setting, value) in &self.0 {
+            setting.check(value, Called::Flag)?;
+            setting.set(settings, value)?;
+        }
+        settings.check()
+    }
+}
+
+impl std::fmt::Debug for Changes {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        out.debug_map().entries(self.0.iter().map(|(setting, value)| (setting.flag, value))).finish()
+    }
+}
+
+impl clap::Args for Changes {
+    fn augment_args(command: Command) -> Command {
+        command.args(SETTINGS.iter().map(option))
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for Changes {
+    fn from_arg_matches(matches: &ArgMatches) -> std::result::Result<Self, clap::Error> {
+        Ok(Self::of_matches(matches))
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> std::result::Result<(), clap::Error> {
+        *self = Self::of_matches(matches);
+        Ok(())
+    }
+}
+
+/// The option of a setting.
+fn option(setting: &'static Setting) -> Arg {
+    let default = match setting.default {
+        "" => String::new(),
+        default => format!(" [default: {default}]"),
+    };
+    let mut option = Arg::new(setting.flag).long(setting.flag).help(format!("{}{default}", setting.help));
+    if let Some(letter) = setting.letter {
+        option = option.short(letter);
+    }
+    if let Role::Alias([other]) = setting.role {
+        option = option.conflicts_with(other);
+    }
+    let text = ValueParser::new(|text: &str| setting.parse(text));
+    match &setting.access {
+        Access::Vector(..) => {
+            option.allow_hyphen_values(true).value_name(setting.value_name).value_parser(text)
+        }
+        Access::Switch(_) => {
+            let option = option.num_args(0..=1).require_equals(true).default_missing_value("true");
+            option.value_name(setting.value_name).value_parser(text)
+        }
+        Access::Image(_) => option
+            .value_name(setting.value_name)
+            .value_parser(PathBufValueParser::new().map(|path| file(&path))),
+        Access::Choice { names, .. } => {
+            let names = names();
+            let listed = setting.value_name.is_empty();
+            let name = if listed { names.join("|") } else { setting.value_name.into() };
+            let one = PossibleValuesParser::new(names).try_map(|name| setting.parse(&name));
+            option.value_name(name).hide_possible_values(listed).value_parser(one)
+        }
+        _ => option.allow_negative_numbers(true).value_name(setting.value_name).value_parser(text),
+    }
+}
