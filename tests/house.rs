@@ -1,6 +1,7 @@
 //! Rules of the house that the compiler does not know: which module may use which, and that planted
 //! faults are looked for.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// A module and what it may use of the crate, besides `error`.
@@ -83,6 +84,181 @@ fn a_forbidden_arrow_is_found() {
     assert_eq!(forbidden("vulkan", "use crate::scene::Scene;"), ["vulkan uses scene"]);
     assert_eq!(forbidden("scene", "fn f(a: crate::gpu_types::Sphere) {}"), ["scene uses gpu_types"]);
     assert!(forbidden("passes", "use crate::vulkan::Image; // not crate::scene").is_empty());
+}
+
+/// The files that are modules, each by its path from the crate's root, without `mod.rs`: `scene/shape/sphere`.
+fn module_files() -> BTreeMap<String, String> {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut modules = BTreeMap::new();
+    walk(&source, &mut |path| {
+        let inside = path.strip_prefix(&source).expect("it lies there").with_extension("");
+        let module = if inside.ends_with("mod") { inside.parent().expect("a folder") } else { &inside };
+        let name = module.to_str().expect("a plain name").replace('\\', "/");
+        let text = std::fs::read_to_string(path).expect("a readable file");
+        let code: Vec<&str> = text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect();
+        modules.insert(name, code.join("\n"));
+    });
+    modules
+}
+
+/// The paths that a text names from `crate` or `super` on, and those of its `pub use`: with their braces opened.
+fn named_paths(code: &str) -> Vec<Vec<String>> {
+    let is_name = |letter: char| letter.is_alphanumeric() || letter == '_' || letter == '#';
+    let mut paths = Vec::new();
+    for start in ["crate", "super"] {
+        for (at, _) in code.match_indices(&format!("{start}::")) {
+            // Not the second half of a longer name, and not the rest of `super::super`.
+            if !code[..at].ends_with(|before: char| is_name(before) || before == ':') {
+                open_braces(&code[at..], &[], &mut paths);
+            }
+        }
+    }
+    paths
+}
+
+/// Adds the paths of a tree of imports, `a::{b, c::d}`, and gives the text behind it.
+fn open_braces<'a>(text: &'a str, before: &[String], paths: &mut Vec<Vec<String>>) -> &'a str {
+    let mut path = before.to_vec();
+    let mut rest = text;
+    loop {
+        let end = rest.find(|letter: char| !letter.is_alphanumeric() && !"_#*".contains(letter));
+        let (name, behind) = rest.split_at(end.unwrap_or(rest.len()));
+        if !name.is_empty() {
+            path.push(name.trim_start_matches("r#").to_owned());
+        }
+        match behind.strip_prefix("::") {
+            Some(further) => rest = further,
+            None if name.is_empty() && behind.starts_with('{') => {
+                rest = behind[1..].trim_start();
+                while !rest.starts_with('}') && !rest.is_empty() {
+                    rest = open_braces(rest, &path, paths);
+                    rest = rest.trim_start().trim_start_matches(',').trim_start();
+                }
+                return rest.get(1..).unwrap_or_default();
+            }
+            None => {
+                paths.push(path);
+                // `as other`
+                let ends = |letter| [',', '}', ';'].contains(&letter);
+                return if before.is_empty() { behind } else { &behind[behind.find(ends).unwrap_or(0)..] };
+            }
+        }
+    }
+}
+
+/// Where a module takes a name from: the module itself, or the one that it hands the name on from.
+fn origin(modules: &BTreeMap<String, String>, module: &str, name: &str) -> String {
+    let code = modules.get(module).map_or("", String::as_str);
+    let inner = |child: &str| if module.is_empty() { child.to_owned() } else { format!("{module}/{child}") };
+    if modules.contains_key(&inner(name)) {
+        return inner(name);
+    }
+    for (at, _) in code.match_indices("use ") {
+        let mut handed_on = Vec::new();
+        open_braces(&code[at + 4..], &[], &mut handed_on);
+        for path in handed_on {
+            let child = inner(&path[0]);
+            let last = path.last().expect("a path has a name");
+            let defines = || {
+                let kinds = ["struct", "enum", "trait", "fn", "const", "type", "macro_rules!"];
+                let within =
+                    |(of, _): &(&String, &String)| **of == child || of.starts_with(&format!("{child}/"));
+                let has = |code: &str| kinds.iter().any(|kind| code.contains(&format!("{kind} {name}")));
+                modules.iter().filter(within).any(|(_, code)| has(code))
+            };
+            if path.len() > 1 && modules.contains_key(&child) && (last == name || last == "*" && defines()) {
+                return origin(modules, &child, name);
+            }
+        }
+    }
+    module.to_owned()
+}
+
+/// The modules that each module uses, but for those that it lies in: a module may use what is around it.
+fn arrows_between(modules: &BTreeMap<String, String>) -> BTreeMap<String, BTreeSet<String>> {
+    let used = |module: &String, code: &String| {
+        let mut used = BTreeSet::new();
+        for path in named_paths(code) {
+            let mut at = if path[0] == "crate" { String::new() } else { module.clone() };
+            for name in &path {
+                match name.as_str() {
+                    "crate" => {}
+                    "super" => at.truncate(at.rfind('/').unwrap_or(0)),
+                    "self" => break,
+                    name => at = origin(modules, &at, name),
+                }
+            }
+            let around = at.is_empty() || *module == at || module.starts_with(&format!("{at}/"));
+            if !around && modules.contains_key(&at) {
+                used.insert(at);
+            }
+        }
+        // And what its own children are: what uses it uses them.
+        let is_child = |of: &&String| {
+            of.strip_prefix(module.as_str())
+                .is_some_and(|rest| rest.starts_with('/') && !rest[1..].contains('/'))
+        };
+        used.extend(modules.keys().filter(is_child).cloned());
+        (module.clone(), used)
+    };
+    let inner = modules.iter().filter(|(module, _)| !["lib", "main", ""].contains(&module.as_str()));
+    inner.map(|(module, code)| used(module, code)).collect()
+}
+
+/// Modules that use one another, each circle by those on it.
+fn circles(arrows: &BTreeMap<String, BTreeSet<String>>) -> BTreeSet<Vec<String>> {
+    let reached_from = |start: &String| {
+        let mut reached = BTreeSet::new();
+        let mut open = vec![start];
+        while let Some(module) = open.pop() {
+            for next in arrows.get(module).into_iter().flatten() {
+                if reached.insert(next) {
+                    open.push(next);
+                }
+            }
+        }
+        reached
+    };
+    let reached: BTreeMap<&String, BTreeSet<&String>> =
+        arrows.keys().map(|module| (module, reached_from(module))).collect();
+    let on_circle = |module: &&String| reached[*module].contains(*module);
+    let same = |module: &&String| {
+        let others = arrows.keys().filter(|other| reached[*module].contains(*other));
+        others.filter(|other| reached[*other].contains(*module)).cloned().collect()
+    };
+    arrows.keys().filter(on_circle).map(|module| same(&module)).collect()
+}
+
+/// Catches modules that use one another, straight or by way of others: none of them can be read, tested or moved
+/// alone.
+#[test]
+fn modules_form_no_circle() {
+    let modules = module_files();
+    let arrows = arrows_between(&modules);
+    assert!(arrows["scene/toml"].contains("scene/shape"), "{:?}", arrows["scene/toml"]);
+    assert!(arrows["scene/shape/plane"].contains("scene/toml/number"), "{:?}", arrows["scene/shape/plane"]);
+    assert!(arrows["scene/toml/camera"].contains("scene/aperture"), "{:?}", arrows["scene/toml/camera"]);
+    assert_eq!(circles(&arrows), BTreeSet::new());
+}
+
+/// The check above must see a circle through braces, names that are handed on, and modules within modules.
+#[test]
+fn a_circle_is_found() {
+    let found = |files: &[(&str, &str)]| {
+        let modules = files.iter().map(|(name, code)| ((*name).to_owned(), (*code).to_owned())).collect();
+        circles(&arrows_between(&modules)).into_iter().next().unwrap_or_default()
+    };
+    let root = ("a", "mod b; mod c; pub use b::B; pub use c::*; struct A;");
+    assert_eq!(
+        found(&[root, ("a/b", "use super::A; struct B;"), ("a/c", "use super::{A, B}; struct C;")]),
+        [""; 0]
+    );
+    let through_names =
+        [root, ("a/b", "fn f(c: crate::a::C) {}"), ("a/c", "use super::{A, B as D}; struct C;")];
+    assert_eq!(found(&through_names), ["a/b", "a/c"]);
+    let within =
+        [root, ("a/b", "mod d;"), ("a/b/d", "use super::super::c::{X, C};"), ("a/c", "use super::b;")];
+    assert_eq!(found(&within), ["a/b", "a/b/d", "a/c"]);
 }
 
 /// Catches a planted fault that no test looks for: it would prove nothing.

@@ -1,21 +1,14 @@
 //! From SCENE on the command line to a [`Scene`]: names, files, and errors with a line.
 
-use super::format::SceneFile;
 use super::mesh::Mesh;
-use super::{BUILTINS, Scene, stage, text, words};
+use super::toml::{self, fault::Fault, text};
+use super::{BUILTINS, Scene, stage};
 use crate::error::{Error, Result};
 use crate::input_file;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// The most bytes of a scene file. What is read from them takes some fifty times as many.
 const MOST_TEXT: u64 = 128 << 20;
-
-/// What is wrong, and where in the text.
-pub(super) struct Fault {
-    pub(super) span: Range<usize>,
-    pub(super) message: String,
-}
 
 /// A scene, and its file.
 pub struct Loaded {
@@ -81,7 +74,7 @@ fn parse(name: &str, file: &Path, text: &str) -> Result<Scene> {
         let before = &text.as_bytes()[..fault.span.start.min(text.len())];
         fault_in(file, before.iter().filter(|byte| **byte == b'\n').count() + 1, fault.message)
     };
-    let tables: SceneFile = words::read(text).map_err(at)?;
+    let tables = toml::read(text).map_err(at)?;
     let folder = file.parent().unwrap_or(Path::new(""));
     tables.into_scene(name, folder).map_err(at)
 }

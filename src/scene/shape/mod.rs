@@ -7,7 +7,7 @@ mod plane;
 mod sphere;
 mod triangle;
 
-use super::file::Fault;
+use super::toml::fault::Fault;
 use glam::{DMat3, DVec3, Vec3};
 use toml::Spanned;
 

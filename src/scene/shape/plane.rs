@@ -1,9 +1,8 @@
 //! An infinite plane.
 
 use super::{Corners, Kind, Shape, ShapeTable};
-use crate::scene::file::Fault;
-use crate::scene::format::nonzero;
-use crate::scene::number::Vector;
+use crate::scene::toml::fault::Fault;
+use crate::scene::toml::number::{Vector, nonzero};
 use glam::{DMat3, DVec3, Vec3};
 use serde::Deserialize;
 use toml::Spanned;

@@ -1,8 +1,8 @@
 //! A sphere.
 
 use super::{Corners, Kind, Shape, ShapeTable};
-use crate::scene::file::Fault;
-use crate::scene::number::{Positive, Vector, zero};
+use crate::scene::toml::fault::Fault;
+use crate::scene::toml::number::{Positive, Vector, zero};
 use glam::{DMat3, DVec3, Vec3};
 use serde::Deserialize;
 use toml::Spanned;

@@ -1,9 +1,8 @@
 //! A triangle.
 
 use super::{Corners, Kind, Shape, ShapeTable};
-use crate::scene::file::Fault;
-use crate::scene::format::fault;
-use crate::scene::number::{Vector, zero};
+use crate::scene::toml::fault::{Fault, fault};
+use crate::scene::toml::number::{Vector, zero};
 use glam::{DMat3, DVec3, Vec3};
 use serde::Deserialize;
 use toml::Spanned;

@@ -1,9 +1,8 @@
-//! The scene file's material tables, and the colours of lights, which share their form.
+//! The tables of materials, and the colours of lights, which share their form.
 
-use super::file::Fault;
-use super::format::fault;
+use super::fault::{Fault, fault};
 use super::number::{NonNegative, Positive, Rgb};
-use super::{Checker, Material};
+use crate::scene::{Checker, Material};
 use glam::Vec3;
 use serde::Deserialize;
 use std::collections::BTreeMap;

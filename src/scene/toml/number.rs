@@ -1,36 +1,46 @@
 //! Numbers of the scene file, checked as they are read, so that an error names their line.
 
-use super::{MAX_BOUNCES, MAX_EXTENT, MAX_LENGTH, MIN_LENGTH};
+use super::fault::{Fault, fault};
+use crate::scene::{MAX_BOUNCES, MAX_EXTENT, MAX_LENGTH, MIN_LENGTH};
 use glam::{DVec3, Vec3};
 use serde::Deserialize;
+use toml::Spanned;
 
 #[derive(Deserialize)]
 #[serde(try_from = "f64")]
-pub(super) struct Positive(pub(super) f64);
+pub(in crate::scene) struct Positive(pub(in crate::scene) f64);
 
 #[derive(Deserialize, Default)]
 #[serde(try_from = "f64")]
-pub(super) struct NonNegative(pub(super) f32);
+pub(in crate::scene) struct NonNegative(pub(in crate::scene) f32);
 
 #[derive(Deserialize)]
 #[serde(try_from = "[f64; 3]")]
-pub(super) struct Vector(pub(super) DVec3);
+pub(in crate::scene) struct Vector(pub(in crate::scene) DVec3);
 
 #[derive(Deserialize)]
 #[serde(try_from = "[NonNegative; 3]")]
-pub(super) struct Rgb(pub(super) Vec3);
+pub(in crate::scene) struct Rgb(pub(in crate::scene) Vec3);
 
 #[derive(Deserialize)]
 #[serde(try_from = "i64")]
-pub(super) struct Extent(pub(super) u32);
+pub(in crate::scene) struct Extent(pub(in crate::scene) u32);
 
 #[derive(Deserialize)]
 #[serde(try_from = "i64")]
-pub(super) struct Count(pub(super) u32);
+pub(in crate::scene) struct Count(pub(in crate::scene) u32);
 
 /// Where a vector may be left out.
-pub(super) fn zero() -> Vector {
+pub(in crate::scene) fn zero() -> Vector {
     Vector(DVec3::ZERO)
+}
+
+/// A vector that must have a direction.
+pub(in crate::scene) fn nonzero(vector: &Spanned<Vector>) -> Result<Vec3, Fault> {
+    match vector.get_ref().f32() {
+        Vec3::ZERO => Err(fault(vector, "this vector must not be zero")),
+        other => Ok(other),
+    }
 }
 
 const LARGEST: f64 = MAX_LENGTH as f64;
@@ -48,11 +58,11 @@ impl TryFrom<f64> for Positive {
 }
 
 impl Positive {
-    pub(super) fn f32(&self) -> f32 {
+    pub(in crate::scene) fn f32(&self) -> f32 {
         self.0 as f32
     }
 
-    pub(super) fn f64(&self) -> f64 {
+    pub(in crate::scene) fn f64(&self) -> f64 {
         self.0
     }
 }
@@ -81,7 +91,7 @@ impl TryFrom<[f64; 3]> for Vector {
 }
 
 impl Vector {
-    pub(super) fn f32(&self) -> Vec3 {
+    pub(in crate::scene) fn f32(&self) -> Vec3 {
         self.0.as_vec3()
     }
 }

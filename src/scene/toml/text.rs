@@ -1,7 +1,7 @@
 //! The text of a scene file, from the bytes that an editor or a shell has put there.
 
 /// What the text is, or the line in which it is none and why.
-pub(super) fn decode(bytes: Vec<u8>) -> Result<String, (usize, String)> {
+pub(in crate::scene) fn decode(bytes: Vec<u8>) -> Result<String, (usize, String)> {
     if let Some(rest) = bytes.strip_prefix(b"\xef\xbb\xbf") {
         return utf8(rest.to_vec());
     }

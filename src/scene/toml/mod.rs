@@ -1,17 +1,32 @@
 //! The scene file's tables. A table's name says what the thing is: `[[sphere]]`, `[matte.NAME]`,
 //! `[[directional]]`. Unknown keys are errors.
 
-use super::camera_format::{CameraTable, Shot, ViewTable, view};
-use super::file::Fault;
-use super::material_format::{LightColor, MaterialList, MatteTable, MirrorTable, Named, PhongTable, white};
-use super::mesh::{Mesh, Placement};
-use super::number::{Count, Extent, NonNegative, Positive, Rgb, Vector, zero};
+mod camera;
+pub(super) mod fault;
+mod material;
+mod mesh;
+pub(super) mod number;
+pub(super) mod text;
+mod view;
+mod words;
+
 use super::shape::{self, ShapeTable, shape_kinds};
 use super::{Background, Light, LightKind, Scene, Shaded, View};
+use camera::{CameraTable, Shot};
+use fault::{Fault, fault};
 use glam::Vec3;
+use material::{LightColor, MaterialList, MatteTable, MirrorTable, Named, PhongTable, white};
+use mesh::MeshTable;
+use number::{Count, Extent, NonNegative, Rgb, Vector, nonzero};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
+use view::{ViewTable, view};
+
+/// Reads the text of a scene file.
+pub(super) fn read(text: &str) -> Result<SceneFile, Fault> {
+    words::read(text)
+}
 
 macro_rules! define_scene_file {
     ($(($kind:ident, $table:ident, $name:ident),)+) => {
@@ -92,31 +107,12 @@ struct DirectionalTable {
     shadows: bool,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct MeshTable {
-    file: Spanned<String>,
-    material: Option<Spanned<String>>,
-    #[serde(default = "one")]
-    scale: Positive,
-    #[serde(default = "zero")]
-    rotate_degrees: Vector,
-    #[serde(default = "zero")]
-    position: Vector,
-    #[serde(default = "zero")]
-    velocity: Vector,
-}
-
 fn default_size() -> [Extent; 2] {
     [Extent(1280), Extent(720)]
 }
 
 fn default_max_bounces() -> Count {
     Count(5)
-}
-
-fn one() -> Positive {
-    Positive(1.0)
 }
 
 fn yes() -> bool {
@@ -191,14 +187,6 @@ impl SceneFile {
     }
 }
 
-impl MeshTable {
-    fn add_to(&self, scene: &mut Scene, folder: &Path, material: Option<u32>) -> crate::error::Result<()> {
-        let mesh = Mesh::read(&folder.join(self.file.get_ref()))?;
-        let placement = Placement::new(self.scale.f64(), self.rotate_degrees.0, self.position.0);
-        mesh.add_to(scene, &placement, material, self.velocity.f32())
-    }
-}
-
 fn background(table: Option<&Spanned<BackgroundTable>>) -> Result<Background, Fault> {
     let Some(span) = table else {
         return Ok(Background { horizon: Vec3::ZERO, zenith: Vec3::ZERO });
@@ -209,15 +197,4 @@ fn background(table: Option<&Spanned<BackgroundTable>>) -> Result<Background, Fa
         (None, Some(horizon), Some(zenith)) => Ok(Background { horizon: horizon.0, zenith: zenith.0 }),
         _ => Err(fault(span, "the background needs either color, or horizon and zenith")),
     }
-}
-
-pub(super) fn nonzero(vector: &Spanned<Vector>) -> Result<Vec3, Fault> {
-    match vector.get_ref().f32() {
-        Vec3::ZERO => Err(fault(vector, "this vector must not be zero")),
-        other => Ok(other),
-    }
-}
-
-pub(super) fn fault<T>(at: &Spanned<T>, message: &str) -> Fault {
-    Fault { span: at.span(), message: message.to_owned() }
 }

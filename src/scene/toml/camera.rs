@@ -1,11 +1,10 @@
-//! The scene file's tables `[camera]` and `[view]`.
+//! The table `[camera]`.
 
-use super::file::Fault;
-use super::format::fault;
+use super::fault::{Fault, fault, named};
 use super::number::{NonNegative, Positive, Vector};
-use super::{
-    Aperture, ApertureImage, Camera, CameraModel, DEFAULT_SHUTTER, Hole, Lens, METRES_PER_UNIT, Overlay,
-    PRESETS, VFOV_DEGREES, View,
+use crate::scene::{
+    Aperture, ApertureImage, Camera, CameraModel, DEFAULT_SHUTTER, Hole, Lens, METRES_PER_UNIT, PRESETS,
+    VFOV_DEGREES, View,
 };
 use glam::DVec3;
 use serde::Deserialize;
@@ -40,15 +39,6 @@ pub(super) struct CameraTable {
     aperture_image: Option<Spanned<String>>,
     shutter: Option<Positive>,
     iso: Option<Positive>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct ViewTable {
-    exposure: Option<f32>,
-    exposure_lock: Option<bool>,
-    overlay: Option<Spanned<String>>,
-    tolerance: Option<f32>,
 }
 
 const NEEDS_VFOV: &str = "the camera needs either vfov_degrees, or view_distance and pixel_size, or a preset that has a field of view";
@@ -149,31 +139,6 @@ impl CameraTable {
             _ => Err(NEEDS_VFOV),
         }
     }
-}
-
-/// How the picture is shown at first.
-pub(super) fn view(table: Option<&Spanned<ViewTable>>) -> Result<View, Fault> {
-    let plain = View::default();
-    let Some(table) = table.map(Spanned::get_ref) else {
-        return Ok(plain);
-    };
-    let overlay = table.overlay.as_ref();
-    Ok(View {
-        exposure_stops: table.exposure.unwrap_or(plain.exposure_stops),
-        exposure_lock: table.exposure_lock.unwrap_or(plain.exposure_lock),
-        overlay: overlay.map(|name| named(&Overlay::NAMES, name, "overlay")).transpose()?,
-        tolerance: table.tolerance.unwrap_or(plain.tolerance),
-        ..plain
-    })
-}
-
-/// The thing of this name.
-fn named<T: Copy>(things: &[(&'static str, T)], name: &Spanned<String>, kind: &str) -> Result<T, Fault> {
-    let found = things.iter().find(|(known, _)| known == name.get_ref()).map(|(_, thing)| *thing);
-    found.ok_or_else(|| {
-        let known: Vec<&str> = things.iter().map(|(known, _)| *known).collect();
-        fault(name, &format!("no {kind} '{}'; there are: {}", name.get_ref(), known.join(", ")))
-    })
 }
 
 fn aperture(table: &Spanned<CameraTable>, folder: &Path) -> Result<Aperture, Fault> {

@@ -1,8 +1,8 @@
 //! What is wrong with the text of a scene file, in the words of the format: the crates that read TOML and
 //! fill structs know of maps, sequences and fields only.
 
-use super::file::Fault;
-use super::shape::SHAPE_NAMES;
+use super::fault::Fault;
+use crate::scene::shape::SHAPE_NAMES;
 use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
