@@ -1,6 +1,7 @@
 //! Compiles the program's compute shaders, `shaders/*.comp`, to SPIR-V in `OUT_DIR`, where
-//! `src/vulkan/pipeline.rs` embeds them. Shaders include files by their paths in `shaders`, and two that are made of
-//! `src/interface.rs`: `interface.glsl` has its numbers, and `kinds.glsl` includes the file of every kind of shape.
+//! `src/vulkan/pipeline.rs` embeds them. Shaders include files by their paths in `shaders`, and some that are made of
+//! `src/interface.rs`: `interface.glsl` has its numbers, and `shape/kinds.glsl` includes the file of every kind of
+//! shape, and so on for what else has kinds.
 //!
 //! The build script of `tests/shaders` uses this one to compile what only tests and benches need.
 
@@ -10,6 +11,7 @@ use glslang::{
     error::GlslangError,
     include::{IncludeHandler, IncludeResult, IncludeType},
 };
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -21,8 +23,10 @@ mod interface;
 pub struct Sources {
     root: PathBuf,
     interface: String,
-    kinds: String,
 }
+
+/// The folders of `shaders` that have kinds, each with their names.
+const KINDS: &[(&str, &[&str])] = &[("aperture", interface::aperture::NAMES), ("shape", interface::shape::NAMES)];
 
 /// A compiled shader.
 pub struct Compiled {
@@ -68,7 +72,7 @@ impl Sources {
         for file in ["build.rs", "src/interface.rs", "shaders"] {
             println!("cargo::rerun-if-changed={}", root.join(file).display());
         }
-        Self { root: root.to_owned(), interface: interface_glsl(), kinds: kinds_glsl() }
+        Self { root: root.to_owned(), interface: interface_glsl() }
     }
 
     /// The compute shaders of a folder, in the order of their names.
@@ -81,6 +85,32 @@ impl Sources {
             paths.filter(|path| path.extension().is_some_and(|extension| extension == "comp")).collect();
         shaders.sort();
         shaders
+    }
+
+    /// Includes the file of every kind that has a folder of its own. A kind need not have every function: for each that
+    /// any of them has, a macro goes through the kinds that do. `FOR_EACH_APERTURE_POINT(DO)` is
+    /// `DO(DISC, disc) DO(BLADES, blades)` and so on.
+    fn kinds_glsl(&self, folder: &str) -> Option<String> {
+        let (_, names) = KINDS.iter().find(|(of, _)| *of == folder)?;
+        let upper = folder.to_uppercase();
+        let mut glsl = format!("#ifndef {upper}_KINDS_GLSL\n#define {upper}_KINDS_GLSL\n");
+        let mut of_functions = BTreeMap::<String, Vec<&str>>::new();
+        for name in *names {
+            let kind = name.to_lowercase();
+            let file = format!("{folder}/{kind}.glsl");
+            let text = std::fs::read_to_string(self.root.join("shaders").join(&file)).ok()?;
+            for function in functions(&text, &kind) {
+                of_functions.entry(function.to_uppercase()).or_default().push(name);
+            }
+            writeln!(glsl, "#include \"{file}\"").expect("a string grows");
+        }
+        for (function, kinds) in of_functions {
+            writeln!(glsl, "{}", for_each(&format!("{upper}_{function}"), &kinds)).expect("a string grows");
+        }
+        if folder == "shape" {
+            glsl += &shape_ranges();
+        }
+        Some(glsl + "#endif\n")
     }
 
     /// Compiles a shader whose files are changed by `edit` first.
@@ -130,8 +160,10 @@ impl IncludeHandler for Includes<'_> {
     ) -> Option<IncludeResult> {
         let text = match name {
             "interface.glsl" => self.sources.interface.clone(),
-            "kinds.glsl" => self.sources.kinds.clone(),
-            file => std::fs::read_to_string(self.sources.root.join("shaders").join(file)).ok()?,
+            _ => match name.strip_suffix("/kinds.glsl") {
+                Some(folder) => self.sources.kinds_glsl(folder)?,
+                None => std::fs::read_to_string(self.sources.root.join("shaders").join(name)).ok()?,
+            },
         };
         self.files.push(name.to_owned());
         Some(IncludeResult { data: (self.edit)(name, text), name: name.to_owned() })
@@ -159,20 +191,17 @@ fn interface_glsl() -> String {
     glsl + "#endif\n"
 }
 
-/// Includes the file of every kind of shape, and says what the shaders need for each. `KIND_BEGIN` and `KIND_END` are
-/// the range of a kind in the list.
-fn kinds_glsl() -> String {
+/// What shaders need of shapes besides. `KIND_BEGIN` and `KIND_END` are the range of a kind in the list.
+fn shape_ranges() -> String {
     use interface::shape::{FIRST_UNBOUNDED, NAMES};
-    let mut glsl = String::from("#ifndef KINDS_GLSL\n#define KINDS_GLSL\n");
+    let mut glsl = String::new();
     let mut begin = "0u".to_owned();
     let mut ends = Vec::new();
     for (number, name) in NAMES.iter().enumerate() {
-        let file = name.to_lowercase();
         let end = format!("{name}_END");
         write!(
             glsl,
-            "#include \"shape/{file}.glsl\"\n\
-             layout(constant_id = ID_SHAPE_END + {number}u) const uint {end} = 0u;\n\
+            "layout(constant_id = ID_SHAPE_END + {number}u) const uint {end} = 0u;\n\
              const uint {name}_BEGIN = {begin};\n"
         )
         .expect("a string grows");
@@ -181,14 +210,13 @@ fn kinds_glsl() -> String {
     }
     let (bounded, unbounded) = NAMES.split_at(FIRST_UNBOUNDED as usize);
     for (name, kinds) in [("BOUNDED_", bounded), ("UNBOUNDED_", unbounded), ("", NAMES)] {
-        let each: String = kinds.iter().map(|kind| format!(" DO({kind}, {})", kind.to_lowercase())).collect();
-        writeln!(glsl, "#define FOR_EACH_{name}KIND(DO){each}").expect("a string grows");
+        writeln!(glsl, "{}", for_each(&format!("{name}KIND"), kinds)).expect("a string grows");
     }
     let bits = |count: usize| (1_u32 << count) - 1;
     writeln!(
         glsl,
         "const uint BOUNDED_KINDS = {}u;\nconst uint ALL_KINDS = {}u;\nconst uint BOUNDED_SHAPES_END = {};\n\
-         const uint SHAPES_END = {};\n#endif",
+         const uint SHAPES_END = {};",
         bits(bounded.len()),
         bits(NAMES.len()),
         ends[bounded.len() - 1],
@@ -196,6 +224,23 @@ fn kinds_glsl() -> String {
     )
     .expect("a string grows");
     glsl
+}
+
+/// A macro that does something with each of some kinds.
+fn for_each(name: &str, kinds: &[&str]) -> String {
+    let each: String = kinds.iter().map(|kind| format!(" DO({kind}, {})", kind.to_lowercase())).collect();
+    format!("#define FOR_EACH_{name}(DO){each}")
+}
+
+/// The functions of a kind that its file defines, by their names behind the kind's.
+fn functions<'a>(text: &'a str, kind: &str) -> Vec<&'a str> {
+    let start = format!("{kind}_");
+    let defined = |line: &'a str| {
+        let (declared, rest) = line.split_once('(')?;
+        let (_, name) = declared.split_once(' ')?;
+        (rest.ends_with('{') && !line.starts_with(' ')).then(|| name.strip_prefix(&start)).flatten()
+    };
+    text.lines().filter_map(defined).collect()
 }
 
 /// glslang names the file it was given "0"; cargo shows what a build script says as an error only

@@ -117,19 +117,19 @@ pub mod sampler {
     }
 }
 
-/// The outlines of an aperture.
+/// The kinds of apertures. Each has a file of its name in `shaders/aperture`.
 pub mod aperture {
     numbered! {
         /// A disc.
         DISC,
+        /// An ellipse.
+        ELLIPSE,
         /// An iris of blades.
         BLADES,
         /// A disc that is cut off towards the picture's corners.
         CATS_EYE,
         /// As bright as an image.
         IMAGE,
-        /// An ellipse.
-        ELLIPSE,
     }
 }
 

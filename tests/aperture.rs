@@ -173,7 +173,7 @@ fn light_comes_in_evenly_all_over_the_opening() {
 
             let mut found = vec![0.0; CELLS * CELLS];
             for (xi, point) in values_of_samples.iter().zip(&got) {
-                let (expected, share) = aperture::point(aperture, *film, *xi);
+                let (expected, share) = aperture::point(aperture, estimator.model, *film, *xi);
                 let off = (point[0] - expected[0]).hypot(point[1] - expected[1]);
                 if off > 1e-4 {
                     stray += 1;

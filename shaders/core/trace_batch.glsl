@@ -50,9 +50,7 @@ vec4 trace_batch(TracePush push, uvec2 pixel, out float moment) {
         }
         bool given_up;
         vec3 color = radiance(ray, push.max_bounces, rays, given_up);
-        if (APERTURE == APERTURE_CATS_EYE) {
-            color *= opening.z;
-        }
+        color *= opening.z;
         if (!given_up && is_finite(color)) {
             vec4 one = vec4(color, 1.0);
             if (HAS_MOMENTS == 1u) {

@@ -3,7 +3,7 @@
 #ifndef SCENE_GLSL
 #define SCENE_GLSL
 
-#include "kinds.glsl"
+#include "shape/kinds.glsl"
 
 struct Material {
     vec3 color;
@@ -32,7 +32,7 @@ struct Environment {
 };
 
 // The numbers of things are specialization constants, so that loops over them can unroll. Of shapes there are the
-// ends of the ranges of each kind: see kinds.glsl.
+// ends of the ranges of each kind: see build.rs.
 layout(constant_id = ID_LIGHT_COUNT) const uint LIGHT_COUNT = 1u;
 layout(constant_id = ID_SHADOW_LIGHT_COUNT) const uint SHADOW_LIGHT_COUNT = 1u; // the first so many lights cast shadows
 layout(constant_id = ID_MATERIAL_COUNT) const uint MATERIAL_COUNT = 1u;

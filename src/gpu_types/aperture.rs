@@ -1,11 +1,11 @@
-//! The opening as the shaders want it.
+//! Apertures as the shaders want them.
 
-use crate::interface::{self, constant};
-use crate::scene::{self, ApertureImage, CameraModel};
+use crate::interface::{MOST_BLADES, aperture, constant};
+use crate::scene::{ApertureImage, ApertureKind, BLADES, Blades, CatsEye};
 use crate::settings::Estimator;
 use bytemuck::{Pod, Zeroable};
 
-/// `Aperture` of aperture.glsl.
+/// `Aperture` of aperture/record.glsl.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable, PartialEq)]
 pub struct Aperture {
@@ -25,26 +25,22 @@ pub struct Aperture {
     pub pad0: u32,
 }
 
-/// `ApertureBuffer` of aperture.glsl.
+/// `ApertureBuffer` of aperture/record.glsl.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable, PartialEq)]
 pub struct ApertureBuffer {
     pub shape: Aperture,
-    pub edges: [[f32; 2]; interface::MOST_BLADES as usize],
+    pub edges: [[f32; 2]; MOST_BLADES as usize],
 }
 
-/// `APERTURE` of aperture.glsl.
+/// `APERTURE` of aperture/record.glsl.
 pub fn aperture_constant(estimator: &Estimator) -> (u32, u32) {
-    use interface::aperture::{BLADES, CATS_EYE, DISC, ELLIPSE, IMAGE};
-    let aperture = &estimator.aperture;
-    let code = match estimator.model {
-        CameraModel::Pinhole => DISC,
-        _ if aperture.image.is_some() => IMAGE,
-        _ if aperture.blades > 0 => BLADES,
-        // A hole has no front rim.
-        CameraModel::ThinLens if aperture.cats_eye > 0.0 => CATS_EYE,
-        _ if aperture.anamorphic != 1.0 => ELLIPSE,
-        _ => DISC,
+    let code = match estimator.aperture.kind(estimator.model) {
+        ApertureKind::Disc(_) => aperture::DISC,
+        ApertureKind::Ellipse(_) => aperture::ELLIPSE,
+        ApertureKind::Blades(_) => aperture::BLADES,
+        ApertureKind::CatsEye(_) => aperture::CATS_EYE,
+        ApertureKind::Image(_) => aperture::IMAGE,
     };
     (constant::APERTURE, code)
 }
@@ -52,48 +48,52 @@ pub fn aperture_constant(estimator: &Estimator) -> (u32, u32) {
 impl ApertureBuffer {
     /// The opening of a picture.
     pub fn new(estimator: &Estimator) -> Self {
-        let aperture = &estimator.aperture;
-        let [width, height] = estimator.size.map(f64::from);
-        let corner = 0.5 * width.hypot(height) / estimator.camera.view_distance_pixels(estimator.size[1]);
-        let mut stretch = aperture.stretch();
-        let cells = aperture.image.as_ref().map_or([1, 1], |image| image.size);
-        if aperture.image.is_some() {
-            let longer = f64::from(cells[0].max(cells[1]));
-            stretch = [0, 1].map(|axis| stretch[axis] * f64::from(cells[axis]) / longer);
-        }
-        let mut shape = Aperture {
-            stretch: stretch.map(|half| half as f32),
-            cats_eye: (2.0 * f64::from(aperture.cats_eye) / corner) as f32,
-            most_cats_eye: 2.0 * aperture.cats_eye,
-            cells,
-            shutter: estimator.shutter,
-            ..Zeroable::zeroed()
-        };
-        let mut edges = [[0.0; 2]; interface::MOST_BLADES as usize];
-        if aperture.blades > 0 {
-            let (half, roundness) = (aperture.half_blade(), f64::from(aperture.roundness));
-            // Areas between a middle and a corner, of the polygon's part and the disc's.
-            let polygon = (1.0 - roundness) * half.sin() * half.cos();
-            let straight = polygon / (polygon + roundness * half);
-            let inverse = |share: f64| if share > 0.0 { share.recip() as f32 } else { 0.0 };
-            shape.blade_count = aperture.blades as f32;
-            shape.half_blade = half as f32;
-            shape.tangent = half.tan() as f32;
-            shape.straight = straight as f32;
-            shape.inverse_straight = inverse(straight);
-            shape.inverse_bent = inverse(1.0 - straight);
-            shape.straight_square = ((1.0 - roundness) * half.cos().powi(2)) as f32;
-            shape.roundness = aperture.roundness;
-            for (blade, edge) in (0..aperture.blades).zip(&mut edges) {
-                let angle = f64::from(aperture.rotation_degrees).to_radians() + 2.0 * half * f64::from(blade);
-                *edge = [angle.cos() as f32, angle.sin() as f32];
+        let mut stretch = estimator.aperture.stretch();
+        let mut shape = Aperture { cells: [1, 1], shutter: estimator.shutter, ..Zeroable::zeroed() };
+        let mut edges = [[0.0; 2]; MOST_BLADES as usize];
+        match estimator.aperture.kind(estimator.model) {
+            ApertureKind::Disc(_) | ApertureKind::Ellipse(_) => {}
+            ApertureKind::Blades(blades) => add_blades(&mut shape, &mut edges, blades),
+            ApertureKind::CatsEye(CatsEye { in_corner }) => {
+                let [width, height] = estimator.size.map(f64::from);
+                let corner =
+                    0.5 * width.hypot(height) / estimator.camera.view_distance_pixels(estimator.size[1]);
+                shape.cats_eye = (2.0 * f64::from(in_corner) / corner) as f32;
+                shape.most_cats_eye = 2.0 * in_corner;
+            }
+            ApertureKind::Image(image) => {
+                let [columns, rows] = image.size;
+                let longer = f64::from(columns.max(rows));
+                stretch = [0, 1].map(|axis| stretch[axis] * f64::from(image.size[axis]) / longer);
+                shape.cells = image.size;
             }
         }
+        shape.stretch = stretch.map(|half| half as f32);
         Self { shape, edges }
     }
 }
 
-/// `aperture_sums` of aperture.glsl: four a texel.
+fn add_blades(shape: &mut Aperture, edges: &mut [[f32; 2]], blades: Blades) {
+    let (half, roundness) = (blades.half_angle(), f64::from(blades.roundness));
+    // Areas between a middle and a corner, of the polygon's part and the disc's.
+    let polygon = (1.0 - roundness) * half.sin() * half.cos();
+    let straight = polygon / (polygon + roundness * half);
+    let inverse = |share: f64| if share > 0.0 { share.recip() as f32 } else { 0.0 };
+    shape.blade_count = blades.count as f32;
+    shape.half_blade = half as f32;
+    shape.tangent = half.tan() as f32;
+    shape.straight = straight as f32;
+    shape.inverse_straight = inverse(straight);
+    shape.inverse_bent = inverse(1.0 - straight);
+    shape.straight_square = ((1.0 - roundness) * half.cos().powi(2)) as f32;
+    shape.roundness = blades.roundness;
+    for (blade, edge) in (0..blades.count).zip(edges) {
+        let angle = f64::from(blades.rotation_degrees).to_radians() + 2.0 * half * f64::from(blade);
+        *edge = [angle.cos() as f32, angle.sin() as f32];
+    }
+}
+
+/// `aperture_sums` of aperture/image.glsl: four a texel.
 pub fn aperture_sums(image: &ApertureImage) -> Vec<[f32; 4]> {
     let [columns, _] = image.size;
     let rows: Vec<&[f32]> = image.cells.chunks_exact(columns as usize).collect();
@@ -119,4 +119,4 @@ fn running(light: impl Iterator<Item = f64>) -> Vec<f32> {
     sums.iter().map(|sum| (sum / all) as f32).collect()
 }
 
-const _: () = assert!(*scene::BLADES.end() <= interface::MOST_BLADES);
+const _: () = assert!(*BLADES.end() <= MOST_BLADES);

@@ -1,4 +1,4 @@
-//! The opening that light comes in through, on the device: see `shaders/aperture/aperture.glsl`.
+//! The opening that light comes in through, on the device: see `shaders/aperture/record.glsl`.
 
 use crate::error::Result;
 use crate::gpu_types::ApertureBuffer;

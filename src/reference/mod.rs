@@ -14,7 +14,6 @@ pub mod shading;
 pub mod shape;
 pub mod tone;
 
-use crate::scene::{Aperture, CameraModel};
 use crate::settings::Estimator;
 use camera::Projection;
 use film::Film;
@@ -61,18 +60,8 @@ impl<'a> Reference<'a> {
         let offset = [(xi[0] - 0.5) * jitter, (xi[1] - 0.5) * jitter];
         let estimator = self.estimator;
         let lens = [xi[2], xi[3]];
-        let (point, share) = match estimator.model {
-            CameraModel::Pinhole => ([0.0; 2], 1.0),
-            CameraModel::ThinLens => {
-                let film = self.projection.way_to_corner(pixel, offset);
-                aperture::point(&estimator.aperture, film, lens)
-            }
-            // Without a lens there is no rim before it.
-            CameraModel::Hole => {
-                let aperture = Aperture { cats_eye: 0.0, ..estimator.aperture.clone() };
-                aperture::point(&aperture, [0.0; 2], lens)
-            }
-        };
+        let film = self.projection.way_to_corner(pixel, offset);
+        let (point, share) = aperture::point(&estimator.aperture, estimator.model, film, lens);
         let time = if estimator.scene.moves() {
             let open = sampler::time_value(estimator.sampler, estimator.seed, pixel, index);
             (open - 0.5) * f64::from(estimator.shutter)

@@ -1,7 +1,6 @@
 //! What is rendered, as plain values. Nothing here knows of a GPU.
 
 mod aperture;
-mod aperture_image;
 mod builtin;
 mod bvh;
 mod camera;
@@ -21,8 +20,7 @@ mod stage;
 mod toml;
 mod view;
 
-pub use aperture::{Aperture, BLADES};
-pub use aperture_image::{ApertureImage, Mask};
+pub use aperture::*;
 pub use builtin::{BUILTINS, Builtin};
 pub use bvh::{Bvh, Node, Record};
 pub use camera::{Camera, CameraModel, Frame, Hole, Lens};

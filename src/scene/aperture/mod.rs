@@ -1,12 +1,57 @@
-//! The shape of the opening that light comes in through.
+//! The opening that light comes in through. A kind is a file here, with its values and how much light it lets in;
+//! `aperture_kinds` lists them.
 
-use super::ApertureImage;
-use std::f64::consts::PI;
+mod blades;
+mod cats_eye;
+mod disc;
+mod ellipse;
+mod image;
 
-/// How many blades an iris can have.
-pub const BLADES: std::ops::RangeInclusive<u32> = 3..=16;
+pub use blades::BLADES;
+pub use image::Mask;
 
-/// The shape of an opening of a given diameter. Light comes in evenly all over it.
+use super::CameraModel;
+
+/// Calls a macro with the list of all kinds: a kind, what it holds, and its file.
+macro_rules! aperture_kinds {
+    ($callback:ident) => {
+        $callback! {
+            (Disc, Disc, disc),
+            (Ellipse, Ellipse, ellipse),
+            (Blades, Blades, blades),
+            (CatsEye, CatsEye, cats_eye),
+            (Image, ApertureImage, image),
+        }
+    };
+}
+
+/// What every kind of aperture says of itself.
+trait Kind {
+    /// The share that is open of a disc of the same diameter, seen from the middle of the picture.
+    fn open_share(&self) -> f64;
+}
+
+macro_rules! define_aperture {
+    ($(($kind:ident, $values:ident, $name:ident),)+) => {
+        $(pub use $name::$values;)+
+
+        /// An aperture of one kind, without the stretch that all have.
+        #[derive(Debug, Clone, PartialEq)]
+        pub enum ApertureKind {
+            $(#[doc = concat!("See [`", stringify!($values), "`].")] $kind($values),)+
+        }
+
+        impl Kind for ApertureKind {
+            fn open_share(&self) -> f64 {
+                match self { $(Self::$kind(of) => of.open_share(),)+ }
+            }
+        }
+    };
+}
+aperture_kinds!(define_aperture);
+
+/// What is said of an opening of a given diameter: see [`Aperture::kind`] for what that makes. Light comes in evenly
+/// all over it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Aperture {
     /// Blades of the iris, whose corners lie on the rim of the opening; 0 is a disc.
@@ -62,28 +107,29 @@ impl Aperture {
         [ratio.recip().min(1.0), ratio.min(1.0)]
     }
 
+    /// What it is before a camera of this model.
+    pub fn kind(&self, model: CameraModel) -> ApertureKind {
+        match &self.image {
+            _ if model == CameraModel::Pinhole => ApertureKind::Disc(Disc),
+            Some(image) => ApertureKind::Image(image.clone()),
+            None if self.blades > 0 => ApertureKind::Blades(Blades {
+                count: self.blades,
+                rotation_degrees: self.rotation_degrees,
+                roundness: self.roundness,
+            }),
+            // A hole has no front rim.
+            None if self.cats_eye > 0.0 && model == CameraModel::ThinLens => {
+                ApertureKind::CatsEye(CatsEye { in_corner: self.cats_eye })
+            }
+            None if self.anamorphic != 1.0 => ApertureKind::Ellipse(Ellipse),
+            None => ApertureKind::Disc(Disc),
+        }
+    }
+
     /// The share that is open of a disc of the same diameter, seen from the middle of the picture. The corners of
     /// blades lie on the disc's rim, so three let in 41% of its light, five 76%, six 83% and eight 90%.
     pub fn open_share(&self) -> f64 {
         let [half_width, half_height] = self.stretch();
-        let of_disc = match &self.image {
-            Some(image) => {
-                let longer = f64::from(image.size[0].max(image.size[1]));
-                let light: f64 = image.cells.iter().copied().map(f64::from).sum();
-                light * (2.0 / longer).powi(2) / PI
-            }
-            None if self.blades > 0 => {
-                let (half, round) = (self.half_blade(), f64::from(self.roundness));
-                // Twice the area of half a blade's part: of a triangle, and of a sector of the disc.
-                ((1.0 - round) * half.sin() * half.cos() + round * half) / half
-            }
-            None => 1.0,
-        };
-        half_width * half_height * of_disc
-    }
-
-    /// Half the angle that a blade takes.
-    pub fn half_blade(&self) -> f64 {
-        PI / f64::from(self.blades)
+        half_width * half_height * self.kind(CameraModel::ThinLens).open_share()
     }
 }

@@ -1,8 +1,10 @@
 //! An image of where light comes in, read from a PNG row by row, so that a large one costs little memory.
 
-use super::MAX_EXTENT;
+use super::Kind;
 use crate::error::{Error, Result};
 use crate::input_file;
+use crate::scene::MAX_EXTENT;
+use std::f64::consts::PI;
 use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
@@ -47,6 +49,14 @@ impl std::ops::Deref for ApertureImage {
 
     fn deref(&self) -> &Mask {
         &self.0
+    }
+}
+
+impl Kind for ApertureImage {
+    fn open_share(&self) -> f64 {
+        let longer = f64::from(self.size[0].max(self.size[1]));
+        let light: f64 = self.cells.iter().copied().map(f64::from).sum();
+        light * (2.0 / longer).powi(2) / PI
     }
 }
 

@@ -1,0 +1,25 @@
+// An iris of blades, whose edges may be bent: the squared distance of an edge from the middle is a mixture of a polygon's
+// and a disc's, and so is the density of directions. The distance within a direction goes with the root.
+
+#ifndef BLADES_GLSL
+#define BLADES_GLSL
+
+#include "aperture/record.glsl"
+
+vec3 blades_point(vec2 q, vec2 xi) {
+    float place = xi.x * aperture.blade_count;
+    float blade = min(floor(place), aperture.blade_count - 1.0);
+    float along = 2.0 * (place - blade) - 1.0;
+    float share = abs(along);
+    float tangent = share * aperture.inverse_straight * aperture.tangent;
+    vec2 straight = vec2(1.0, tangent) / sqrt(1.0 + tangent * tangent);
+    vec2 bent = cosine_and_sine((share - aperture.straight) * aperture.inverse_bent * aperture.half_blade);
+    vec2 direction = share <= aperture.straight ? straight : bent;
+    float square = aperture.straight_square / (direction.x * direction.x) + aperture.roundness;
+    direction *= sqrt(square * xi.y);
+    vec2 edge = aperture_buffer.edges[uint(blade)];
+    vec2 point = direction.x * edge + sign(along) * direction.y * vec2(-edge.y, edge.x);
+    return vec3(aperture.stretch * point, 1.0);
+}
+
+#endif

@@ -1,0 +1,12 @@
+// A disc.
+
+#ifndef DISC_GLSL
+#define DISC_GLSL
+
+#include "aperture/record.glsl"
+
+vec3 disc_point(vec2 q, vec2 xi) {
+    return vec3(concentric_disk(xi), 1.0);
+}
+
+#endif

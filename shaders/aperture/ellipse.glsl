@@ -1,0 +1,12 @@
+// An ellipse.
+
+#ifndef ELLIPSE_GLSL
+#define ELLIPSE_GLSL
+
+#include "aperture/record.glsl"
+
+vec3 ellipse_point(vec2 q, vec2 xi) {
+    return vec3(aperture.stretch * concentric_disk(xi), 1.0);
+}
+
+#endif

@@ -1,0 +1,23 @@
+//! An iris: from the middle of a blade's edge to its corner, the squared distance is a mixture of that of a straight edge
+//! and of a circle.
+
+use crate::scene::Blades;
+use std::f64::consts::{PI, TAU};
+
+pub(super) fn point(of: &Blades, xi: [f64; 2]) -> ([f64; 2], f64) {
+    let (half, round) = (PI / f64::from(of.count), f64::from(of.roundness));
+    let place = xi[0] * f64::from(of.count);
+    let (blade, along) = (place.floor(), 2.0 * place.fract() - 1.0);
+    // Areas of both parts between middle and corner, twice over.
+    let straight = (1.0 - round) * half.cos().powi(2) * half.tan();
+    let share = straight / (straight + round * half);
+    let angle = if along.abs() <= share {
+        (along.abs() / share * half.tan()).atan()
+    } else {
+        (along.abs() - share) / (1.0 - share) * half
+    };
+    let edge = ((1.0 - round) * (half.cos() / angle.cos()).powi(2) + round).sqrt();
+    let middle = f64::from(of.rotation_degrees).to_radians() + TAU * blade / f64::from(of.count);
+    let (radius, angle) = (edge * xi[1].sqrt(), middle + angle.copysign(along));
+    ([radius * angle.cos(), radius * angle.sin()], 1.0)
+}

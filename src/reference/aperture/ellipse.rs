@@ -1,0 +1,3 @@
+//! An ellipse: a disc, before it is stretched.
+
+pub(super) use super::disc::point;
