@@ -26,7 +26,8 @@ pub struct Sources {
 }
 
 /// The folders of `shaders` that have kinds, each with their names.
-const KINDS: &[(&str, &[&str])] = &[("aperture", interface::aperture::NAMES), ("shape", interface::shape::NAMES)];
+const KINDS: &[(&str, &[&str])] =
+    &[("aperture", interface::aperture::NAMES), ("shape", interface::shape::NAMES)];
 
 /// A compiled shader.
 pub struct Compiled {

@@ -4,6 +4,7 @@
 
 mod aperture;
 mod brightest;
+mod float;
 mod scene;
 mod shape;
 

@@ -1,5 +1,6 @@
 //! A scene as the shaders want it.
 
+use super::float::{float, floats};
 use super::shape::on_device;
 use super::{Environment, Light, Material, ShapeRecord, TreeNode};
 use crate::interface::shape;
@@ -124,16 +125,6 @@ fn reach(shapes: &[Shaded], shutter: f32) -> f32 {
     let moved = |of: &Shaded| of.shape.reach() + f64::from(0.5 * shutter * of.velocity.length());
     // With what f32 loses of the places of the shapes.
     (1.000_01 * shapes.iter().map(moved).fold(0.0, f64::max)) as f32
-}
-
-/// As devices want it: without denormal numbers, which are a hundred times slower on some processors.
-pub(super) fn float(value: f32) -> f32 {
-    if value.is_subnormal() { 0.0 } else { value }
-}
-
-/// Likewise.
-pub(super) fn floats(vector: Vec3) -> [f32; 3] {
-    vector.to_array().map(float)
 }
 
 fn with_zero([x, y, z]: [f32; 3]) -> [f32; 4] {

@@ -1,6 +1,6 @@
 //! Shapes as the shaders want them: one match arm a kind.
 
-use super::scene::{float, floats};
+use super::float::{float, floats};
 use crate::interface::shape;
 use crate::scene::{Shaded, Shape};
 use bytemuck::{Pod, Zeroable};

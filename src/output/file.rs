@@ -1,6 +1,7 @@
 //! Picture files.
 
 use super::Origin;
+use super::PictureFormat;
 use crate::error::{Error, Result};
 use crate::pending_file::{PendingFile, keep_apart};
 use crate::renderer::Renderer;
@@ -10,26 +11,6 @@ use exr::prelude::{
 };
 use std::io::Cursor;
 use std::path::Path;
-
-/// The formats of pictures, chosen by the file's name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PictureFormat {
-    /// 8-bit sRGB.
-    Png,
-    /// Linear f32, with the count of samples.
-    Exr,
-}
-
-impl PictureFormat {
-    /// The format that a path asks for.
-    pub fn of(path: &Path) -> Option<Self> {
-        match path.extension()?.to_str()?.to_lowercase().as_str() {
-            "png" => Some(Self::Png),
-            "exr" => Some(Self::Exr),
-            _ => None,
-        }
-    }
-}
 
 /// Saves the picture that a renderer has by now: that of so many samples as it has, whatever it goes for. It goes
 /// for no more afterwards.

@@ -1,6 +1,7 @@
 //! Pictures to files: the headless renderer.
 
 mod file;
+mod format;
 mod headless;
 mod list;
 mod origin;
@@ -9,7 +10,8 @@ mod sheet;
 mod stats;
 mod sweep;
 
-pub use file::{PictureFormat, save, save_scene, write_exr, write_picture, write_png};
+pub use file::{save, save_scene, write_exr, write_picture, write_png};
+pub use format::PictureFormat;
 pub use headless::{Job, render, render_instead};
 pub use list::{list_devices, list_scenes};
 pub use origin::Origin;
