@@ -120,17 +120,7 @@ fn pixels_stop_where_their_samples_say() {
         }
         Ok(figures.join("; "))
     };
-    prove(
-        check,
-        &[
-            "error_of_a_sample",
-            "error_without_the_mean",
-            "moments_of_batches_apart_forgotten",
-            "moments_of_samples_forgotten",
-            "stops_without_its_neighbours",
-            "no_darkest",
-        ],
-    );
+    prove(check, &["error"]);
 }
 
 /// Catches light that is counted as lost where it cannot be, and light that may be lost and is not counted: of lamps
@@ -151,19 +141,7 @@ fn pixels_stop_where_little_can_be_lost() {
         }
         Ok(figures.join("; "))
     };
-    prove(
-        check,
-        &[
-            "loses_what_it_has_not_met",
-            "loses_as_much_as_the_threshold",
-            "loses_more_than_the_threshold",
-            "counts_on_more_pixels_around",
-            "lost_of_a_mean_of_zero",
-            "any_threshold",
-            "columns_of_cells_rounded_down",
-            "cells_of_one_pixel",
-        ],
-    );
+    prove(check, &["loss"]);
 }
 
 /// Catches an adaptive picture that adds other samples, or the same in another order, than one that is

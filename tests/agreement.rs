@@ -50,15 +50,9 @@ fn the_device_renders_what_the_oracle_does() {
     prove(
         check,
         &[
-            "lens_radius_times_1.05",
-            "lens_radius_square_root",
-            "focal_sphere",
-            "focal_distance_times_1.02",
-            "jitter_dropped",
-            "one_pair_for_film_and_lens",
-            "picture_upside_down",
-            "picture_mirrored",
-            "half_a_pixel_off",
+            "lens",
+            "framing",
+            "film_and_lens",
             "sampler_without_index",
             "sobol_without_seed",
             "blue_noise_tile_transposed",
@@ -176,11 +170,10 @@ fn independent_samples_estimate_the_same_picture() {
     prove(
         check,
         &[
+            "film_and_lens",
             "lens_radius_times_1.05",
             "lens_radius_square_root",
             "focal_sphere",
-            "jitter_dropped",
-            "one_pair_for_film_and_lens",
             "lens_values_from_the_film",
             "picture_upside_down",
             "half_a_pixel_off",

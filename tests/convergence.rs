@@ -87,14 +87,5 @@ fn blur_converges_faster_than_with_independent_points() {
         }
         Ok(figures.join("; "))
     };
-    prove(
-        check,
-        &[
-            "sobol_film_like_the_lens",
-            "sobol_one_dimension_twice",
-            "sobol_index_within_the_frame_only",
-            "blue_noise_index_within_the_frame_only",
-            "scramble_of_the_bits_as_they_are",
-        ],
-    );
+    prove(check, &["convergence"]);
 }

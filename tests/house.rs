@@ -267,18 +267,32 @@ fn a_circle_is_found() {
     assert_eq!(found(&within), ["a/b", "a/b/d", "a/c"]);
 }
 
-/// Catches a planted fault that no test looks for: it would prove nothing.
+/// The faults that a test's calls of `prove` ask for: the texts in the last list of each call.
+fn asked_for(test: &str) -> Vec<&str> {
+    let calls = test.split("prove(").skip(1).filter_map(|call| call.split(");\n}").next());
+    let lists = calls.flat_map(|call| call.split(");\n").filter_map(|call| call.rsplit_once("&[")));
+    lists.flat_map(|(_, list)| list.split('"').skip(1).step_by(2)).collect()
+}
+
+/// Catches a fault that no test asks for, by its name or by a tag: it would prove nothing.
 #[test]
 fn every_planted_fault_is_looked_for() {
     let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
-    let list = std::fs::read_to_string(tests.join("faults.txt")).expect("a readable list");
-    let mut sources = String::new();
-    walk(&tests, &mut |path| sources += &std::fs::read_to_string(path).expect("a readable file"));
-    let is_name = |line: &&str| line.starts_with(|first: char| first.is_ascii_lowercase());
-    let names = list.lines().filter(is_name).filter_map(|line| line.split(' ').next());
-    let forgotten: Vec<_> = names.clone().filter(|name| !sources.contains(&format!("\"{name}\""))).collect();
+    let mut sources = Vec::new();
+    walk(&tests, &mut |path| sources.push(std::fs::read_to_string(path).expect("a readable file")));
+    let asked: BTreeSet<_> = sources.iter().flat_map(|source| asked_for(source)).collect();
+    let faults = |asked: &&str| thinlens_test_shaders::faults(asked).collect::<Vec<_>>();
+    let looked_for: BTreeSet<_> = asked.iter().flat_map(faults).collect();
+    let forgotten: Vec<_> = thinlens_test_shaders::names().filter(|name| !looked_for.contains(name)).collect();
     assert_eq!(forgotten, Vec::<&str>::new());
-    assert!(names.count() > 50, "the list is read");
+    assert!(looked_for.len() > 50, "the tests are read");
+}
+
+#[test]
+fn what_a_test_asks_for_is_read() {
+    let test =
+        "prove(|gpu| hold(&[\"x\"]), &[\"a\", \"b\"]);\n    prove(check, &[\"c\"]);\n}\nf(&[\"d\"]);\n}\n";
+    assert_eq!(asked_for(test), ["a", "b", "c"]);
 }
 
 /// Every `folder/file` of the project that a text names in backquotes.

@@ -88,7 +88,7 @@ fn blurring_leaves_less_of_blue_noise() {
         }
         Ok(figures.join("; "))
     };
-    prove(check, &["blue_noise_left_to_chance", "blue_noise_number_of_the_neighbour"]);
+    prove(check, &["noise"]);
 }
 
 /// Catches a tile that prefers numbers with which a pixel errs little, those in the middle of pixel and
@@ -134,5 +134,5 @@ fn the_tile_has_no_low_frequencies() {
         }
         Ok(format!("of the power of white noise: {}", figures.join("; ")))
     };
-    prove(check, &["blue_noise_left_to_chance", "blue_noise_number_of_the_neighbour"]);
+    prove(check, &["noise"]);
 }

@@ -44,10 +44,7 @@ fn the_disk_map_is_concentric_and_has_an_inverse() {
         }
         Ok(format!("10 fixed points, {} points back within {worst:.1e}, r <= {largest:.7}", squares.len()))
     };
-    prove(
-        check,
-        &["disk_by_polar_angle", "disk_sector_mirrored", "disk_angle_doubled", "disk_radius_squared"],
-    );
+    prove(check, &["disk"]);
 }
 
 /// Shirley and Chiu's map, the other way.
@@ -132,5 +129,5 @@ fn samples_land_where_their_offset_says() {
         }
         Ok(format!("{compared} places"))
     };
-    prove(check, &["landing_truncated", "jitter_to_both_sides"]);
+    prove(check, &["landing"]);
 }

@@ -6,6 +6,7 @@ pub mod scenes;
 pub mod statistics;
 pub mod viewer;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output};
 use std::sync::Arc;
@@ -98,14 +99,18 @@ impl Drop for Gpu {
     }
 }
 
-/// Holds a check against itself: it must pass with the shaders as they are, and fail with each of
-/// these faults planted in them. A check gives its figures, or what is wrong.
-pub fn prove(check: impl Fn(&Gpu) -> anyhow::Result<String>, faults: &[&'static str]) {
+/// Proves that a check sees mistakes: it must pass with the shaders as they are, and fail with each of the faults
+/// asked for, by their tags or names in `tests/faults`. A check gives its figures, or what is wrong.
+pub fn prove(check: impl Fn(&Gpu) -> anyhow::Result<String>, asked: &[&str]) {
     let mut gpu = Gpu::new();
     match check(&gpu) {
         Ok(figures) => println!("holds: {figures}"),
         Err(error) => panic!("{error:#}"),
     }
+    for asked in asked {
+        assert!(thinlens_test_shaders::faults(asked).next().is_some(), "no fault has the tag or name {asked}");
+    }
+    let faults: BTreeSet<_> = asked.iter().flat_map(|asked| thinlens_test_shaders::faults(asked)).collect();
     for fault in faults {
         assert!(thinlens_test_shaders::has_fault(fault), "no shader has the fault {fault}");
         gpu.fault = fault;

@@ -1,5 +1,16 @@
 //! Compiles the shaders that only tests and benches need, and lists them in `shaders.rs`: every shader as it is
-//! and with each of the faults of `tests/faults.txt` that lies in its source.
+//! and with each of the faults of `tests/faults` that lies in its source.
+//!
+//! A folder like `shaders` has the faults of each shader: those of `shaders/core/film.glsl` are in
+//! `tests/faults/core/film.glsl.txt`. A fault is
+//!
+//! ```text
+//! NAME: TAG, TAG
+//! - a text that stands once in the shader
+//! + the text that replaces it
+//! ```
+//!
+//! A test asks for faults by their tags, or for one by its name; a fault that only one test asks for needs no tag.
 
 #[path = "../../build.rs"]
 #[allow(dead_code, reason = "it is a build script of its own")]
@@ -14,6 +25,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// A mistake to plant: a text that stands once in one file, and what stands there instead.
 struct Fault {
     name: String,
+    tags: Vec<String>,
     file: String,
     from: String,
     to: String,
@@ -24,12 +36,10 @@ fn main() {
     let root = Path::new("../..");
     let sources = Sources::new(root);
     println!("cargo::rerun-if-changed=build.rs");
-    let list = root.join("tests/faults.txt");
-    println!("cargo::rerun-if-changed={}", list.display());
-    let faults = parse_faults(&std::fs::read_to_string(&list).expect("a readable list of faults"));
+    let faults = read_faults(&root.join("tests/faults"));
     let stale: Vec<_> = faults.iter().filter_map(|fault| why_stale(root, fault, &faults)).collect();
     for why in &stale {
-        println!("cargo::error=tests/faults.txt: {why}");
+        println!("cargo::error=tests/faults: {why}");
     }
 
     // Benches measure, and have nothing to find.
@@ -50,6 +60,9 @@ fn main() {
         writeln!(table, "({:?}, {fault:?}, {file:?}),", stem(path)).expect("a string grows");
     }
     std::fs::write(out.join("shaders.rs"), table + "]\n").expect("OUT_DIR is writable");
+    let names: Vec<_> = faults.iter().map(|fault| (&fault.name, &fault.tags)).collect();
+    let list = format!("&{names:?}").replace(", [", ", &[");
+    std::fs::write(out.join("faults.rs"), list).expect("OUT_DIR is writable");
     if !stale.is_empty() || compiled.iter().chain(&faulty).any(Option::is_none) {
         std::process::exit(1);
     }
@@ -106,8 +119,29 @@ fn file_name(path: &Path, fault: &str) -> String {
     if fault.is_empty() { format!("{}.spv", stem(path)) } else { format!("{}.{fault}.spv", stem(path)) }
 }
 
-/// Reads `NAME FILE`, `- OLD` and `+ NEW` lines; `#` starts a comment.
-fn parse_faults(text: &str) -> Vec<Fault> {
+/// The faults of every file in a folder and in those inside it.
+fn read_faults(folder: &Path) -> Vec<Fault> {
+    println!("cargo::rerun-if-changed={}", folder.display());
+    let mut faults = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(inner) = folders.pop() {
+        for entry in std::fs::read_dir(&inner).expect("a readable folder") {
+            let path = entry.expect("a readable entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                let shader = path.strip_prefix(folder).expect("it lies there").with_extension("");
+                let text = std::fs::read_to_string(&path).expect("a readable list of faults");
+                faults.extend(parse_faults(&shader.to_string_lossy().replace('\\', "/"), &text));
+            }
+        }
+    }
+    faults.sort_by(|a, b| a.name.cmp(&b.name));
+    faults
+}
+
+/// Reads the faults of one shader. A `#` starts a comment.
+fn parse_faults(file: &str, text: &str) -> Vec<Fault> {
     let mut faults: Vec<Fault> = Vec::new();
     for line in text.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
         if let Some(from) = line.strip_prefix("- ") {
@@ -115,15 +149,16 @@ fn parse_faults(text: &str) -> Vec<Fault> {
         } else if let Some(to) = line.strip_prefix("+ ") {
             faults.last_mut().expect("a name comes first").to = to.to_owned();
         } else {
-            let (name, file) = line.split_once(' ').expect("NAME FILE");
+            let (name, tags) = line.split_once(": ").unwrap_or((line, ""));
+            let tags = tags.split(", ").filter(|tag| !tag.is_empty()).map(str::to_owned).collect();
             let (name, file) = (name.to_owned(), file.to_owned());
-            faults.push(Fault { name, file, from: String::new(), to: String::new() });
+            faults.push(Fault { name, tags, file, from: String::new(), to: String::new() });
         }
     }
     faults
 }
 
-/// Why a fault cannot be planted: the line that it changes has been changed.
+/// Why a fault cannot be planted: the line that it changes has been changed, or its name is taken.
 fn why_stale(root: &Path, fault: &Fault, all: &[Fault]) -> Option<String> {
     let Fault { name, file, from, .. } = fault;
     let text = std::fs::read_to_string(root.join("shaders").join(file)).unwrap_or_default();
@@ -131,6 +166,6 @@ fn why_stale(root: &Path, fault: &Fault, all: &[Fault]) -> Option<String> {
     if from.is_empty() || times != 1 {
         return Some(format!("{name}: '{from}' must stand once in {file}, but stands there {times} times"));
     }
-    let namesakes = all.iter().filter(|other| other.name == *name).count();
-    (namesakes > 1).then(|| format!("{name} is the name of {namesakes} faults"))
+    let namesakes = all.iter().filter(|other| other.name == *name || other.tags.contains(name)).count();
+    (namesakes > 1).then(|| format!("{name} is the name or a tag of {namesakes} faults"))
 }

@@ -1,4 +1,4 @@
-//! The shaders that only tests and benches need: those of the program with the mistakes of `tests/faults.txt`, the
+//! The shaders that only tests and benches need: those of the program with the mistakes of `tests/faults`, the
 //! probes of `tests/probes`, and what benches compare with.
 
 /// A shader in SPIR-V: the name of its file without `.comp`, the fault planted in it (empty where there is none),
@@ -16,6 +16,19 @@ pub fn spirv(name: &str, fault: &str) -> Option<&'static [u8]> {
     let (.., path) = SHADERS.iter().find(|shader| (shader.0, shader.1) == (name, fault))?;
     let bytes = std::fs::read(path).unwrap_or_else(|error| panic!("{path}: {error}"));
     Some(bytes.leak())
+}
+
+/// Every fault's name and tags.
+const FAULTS: &[(&str, &[&str])] = include!(concat!(env!("OUT_DIR"), "/faults.rs"));
+
+/// The faults that have this tag, or the one that has this name.
+pub fn faults(asked: &str) -> impl Iterator<Item = &'static str> {
+    FAULTS.iter().filter(move |(name, tags)| *name == asked || tags.contains(&asked)).map(|(name, _)| *name)
+}
+
+/// The names of all faults.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    FAULTS.iter().map(|(name, _)| *name)
 }
 
 /// Whether any shader has this fault.
