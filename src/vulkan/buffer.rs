@@ -1,6 +1,6 @@
 //! Buffers.
 
-use super::{Commands, Device, check};
+use super::{Device, check};
 use crate::error::{Error, Result};
 use ash::vk;
 use gpu_allocator::MemoryLocation;
@@ -22,14 +22,14 @@ pub enum Residence {
 pub struct Buffer {
     pub(super) raw: vk::Buffer,
     allocation: Option<Allocation>,
-    device: Arc<Device>,
+    pub(super) device: Arc<Device>,
 }
 
 /// A buffer that shaders read as texels of four u32. On Mesa's software device that is several times
 /// faster than a storage buffer where the index differs from invocation to invocation.
 pub struct TexelBuffer {
     pub(super) view: vk::BufferView,
-    buffer: Buffer,
+    pub(super) buffer: Buffer,
 }
 
 impl Buffer {
@@ -75,34 +75,6 @@ impl Buffer {
         Ok(buffer)
     }
 
-    /// A buffer on the device that holds `data`.
-    ///
-    /// # Errors
-    /// [`Error::Memory`], or what Vulkan says.
-    pub fn upload<T: bytemuck::NoUninit>(
-        device: &Arc<Device>,
-        name: &'static str,
-        data: &[T],
-    ) -> Result<Self> {
-        let buffer = Self::new(device, name, size_of_val(data) as u64, Residence::Device)?;
-        buffer.fill(bytemuck::cast_slice(data))?;
-        Ok(buffer)
-    }
-
-    /// Copies `bytes` to the start of a buffer on the device that is not in use.
-    fn fill(&self, bytes: &[u8]) -> Result<()> {
-        if bytes.is_empty() {
-            return Ok(());
-        }
-        let mut staging = Self::new(&self.device, "staging", bytes.len() as u64, Residence::Staging)?;
-        staging.write(bytes);
-        let mut commands = Commands::new(&self.device)?;
-        let mut recording = commands.begin()?;
-        recording.copy_buffer(&staging, self, bytes.len() as u64);
-        recording.submit()?;
-        commands.wait()
-    }
-
     /// Writes the start of a buffer that the host sees and the device is not using.
     pub fn write(&mut self, bytes: &[u8]) {
         let mapped = self.allocation.as_mut().and_then(Allocation::mapped_slice_mut);
@@ -117,21 +89,14 @@ impl Buffer {
 }
 
 impl TexelBuffer {
-    /// A buffer on the device that holds `data`, in texels of 16 bytes.
+    /// A buffer on the device of at least `size` bytes, in texels of 16, its contents undefined.
     ///
     /// # Errors
-    /// [`Error::Limit`] where it has more texels than the device can read, [`Error::Memory`], or what Vulkan
-    /// says.
-    pub fn upload<T: bytemuck::NoUninit>(
-        device: &Arc<Device>,
-        name: &'static str,
-        data: &[T],
-    ) -> Result<Self> {
-        let size = size_of_val(data) as u64;
+    /// [`Error::Limit`] where it has more texels than the device can read, and [`Error::Memory`].
+    pub(super) fn new(device: &Arc<Device>, name: &'static str, size: u64) -> Result<Self> {
         device.limits.check_texels(name, size)?;
         let usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER;
         let buffer = Buffer::with_usage(device, name, size, Residence::Device, usage)?;
-        buffer.fill(bytemuck::cast_slice(data))?;
         let info = vk::BufferViewCreateInfo::default()
             .buffer(buffer.raw)
             .format(vk::Format::R32G32B32A32_UINT)

@@ -1,39 +1,16 @@
-//! Choosing a device, and what belongs to it: its queue and its allocator.
+//! A device that is in use, with what belongs to it: its queue, its allocator and its pipeline cache.
 
-use super::limits::{Limits, Traits, why_too_small};
+use super::limits::{Limits, Traits};
+use super::physical::{DeviceInfo, SOFTWARE, choose, extensions};
 use super::pipeline_cache::{PipelineCache, user_cache_folder};
-use super::swapchain::Surface;
-use super::{Instance, check, loader_changes, loader_stays};
+use super::{Instance, Surface, check, loader_changes, loader_stays};
 use crate::error::{Error, Result};
 use ash::{ext, khr, vk};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
-use std::ffi::{CStr, CString};
+use std::ffi::CString;
 use std::mem::ManuallyDrop;
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
-
-/// The kind of a device that runs on the CPU.
-const SOFTWARE: &str = "software";
-
-/// A device of the system, usable or not.
-#[derive(Debug, Clone)]
-pub struct DeviceInfo {
-    /// What `--device` takes.
-    pub index: usize,
-    /// The device's own name.
-    pub name: String,
-    /// "discrete GPU", "integrated GPU", "virtual GPU", "software" or "other".
-    pub kind: &'static str,
-    /// The driver's name and version.
-    pub driver: String,
-    /// Its UUID, where another device has the same name.
-    pub uuid: Option<String>,
-    /// Why the renderer cannot use it, if so.
-    pub unusable: Option<String>,
-    rank: u8,
-    raw: vk::PhysicalDevice,
-    queue_family: u32,
-}
 
 /// A logical device with one queue, which computes, copies, draws, and presents where asked to.
 pub struct Device {
@@ -50,104 +27,6 @@ pub struct Device {
     pub(super) limits: Limits,
     traits: Traits,
     pub(super) instance: Arc<Instance>,
-}
-
-impl Instance {
-    /// The system's devices. With a surface, those that cannot present to it are unusable.
-    ///
-    /// # Errors
-    /// What Vulkan says.
-    pub fn devices(&self, surface: Option<&Surface>) -> Result<Vec<DeviceInfo>> {
-        // SAFETY: the instance is valid.
-        let devices = unsafe {
-            let _lists = loader_changes();
-            self.raw.enumerate_physical_devices()
-        };
-        let mut devices: Vec<DeviceInfo> = check("listing devices", devices)?
-            .into_iter()
-            .enumerate()
-            .map(|(index, raw)| self.describe(index, raw, surface))
-            .collect::<Result<_>>()?;
-        keep_needed_uuids(&mut devices);
-        Ok(devices)
-    }
-
-    fn describe(
-        &self,
-        index: usize,
-        raw: vk::PhysicalDevice,
-        surface: Option<&Surface>,
-    ) -> Result<DeviceInfo> {
-        let mut driver = vk::PhysicalDeviceDriverProperties::default();
-        let mut id = vk::PhysicalDeviceIDProperties::default();
-        let mut properties =
-            vk::PhysicalDeviceProperties2::default().push_next(&mut driver).push_next(&mut id);
-        // SAFETY: raw is a device of this instance; the structures chain to live locals.
-        unsafe { self.raw.get_physical_device_properties2(raw, &mut properties) };
-        let properties = properties.properties;
-        let (kind, rank) = match properties.device_type {
-            vk::PhysicalDeviceType::DISCRETE_GPU => ("discrete GPU", 0),
-            vk::PhysicalDeviceType::INTEGRATED_GPU => ("integrated GPU", 1),
-            vk::PhysicalDeviceType::VIRTUAL_GPU => ("virtual GPU", 2),
-            vk::PhysicalDeviceType::CPU => (SOFTWARE, 3),
-            _ => ("other", 4),
-        };
-        let mut info = DeviceInfo {
-            index,
-            name: text(properties.device_name_as_c_str()),
-            kind,
-            driver: format!(
-                "{} {}",
-                text(driver.driver_name_as_c_str()),
-                text(driver.driver_info_as_c_str())
-            ),
-            uuid: Some(id.device_uuid.map(|byte| format!("{byte:02x}")).concat()),
-            unusable: None,
-            rank,
-            raw,
-            queue_family: 0,
-        };
-        if properties.api_version < vk::API_VERSION_1_3 {
-            let (major, minor) = (
-                vk::api_version_major(properties.api_version),
-                vk::api_version_minor(properties.api_version),
-            );
-            info.unusable = Some(format!("Vulkan {major}.{minor}, needs 1.3"));
-            return Ok(info);
-        }
-        if let Some(why) = why_too_small(&properties.limits) {
-            info.unusable = Some(why);
-            return Ok(info);
-        }
-        match self.queue_family(raw, surface)? {
-            Some(family) => info.queue_family = family,
-            None if surface.is_some() => {
-                info.unusable = Some("no queue that computes, draws and presents".into())
-            }
-            None => info.unusable = Some("no queue that computes".into()),
-        }
-        if let (None, Some(surface)) = (&info.unusable, surface) {
-            let can_swap = extensions(self, raw)?.iter().any(|name| name.as_c_str() == khr::swapchain::NAME);
-            let fault = if can_swap { surface.fault(raw)? } else { Some("VK_KHR_swapchain is missing") };
-            info.unusable = fault.map(|fault| format!("it can show no picture in a window: {fault}"));
-        }
-        Ok(info)
-    }
-
-    fn queue_family(&self, raw: vk::PhysicalDevice, surface: Option<&Surface>) -> Result<Option<u32>> {
-        // SAFETY: raw is a device of this instance.
-        let families = unsafe { self.raw.get_physical_device_queue_family_properties(raw) };
-        // Drawing is for the window's panel alone.
-        let graphics = if surface.is_some() { vk::QueueFlags::GRAPHICS } else { vk::QueueFlags::empty() };
-        let wanted = vk::QueueFlags::COMPUTE | graphics;
-        for (family, properties) in (0..).zip(&families) {
-            let presents = surface.map_or(Ok(true), |surface| surface.presents(raw, family))?;
-            if properties.queue_flags.contains(wanted) && presents {
-                return Ok(Some(family));
-            }
-        }
-        Ok(None)
-    }
 }
 
 impl Device {
@@ -253,7 +132,11 @@ impl Device {
     /// used from now on, and what is there at the end is written when the device goes. A file that cannot be
     /// read or written is a line in the log and no failure.
     pub fn keep_pipelines_in(&self, folder: &Path) {
-        self.cache.get_or_init(|| PipelineCache::load(self, folder));
+        self.cache.get_or_init(|| {
+            // SAFETY: the device is of this instance.
+            let properties = unsafe { self.instance.raw.get_physical_device_properties(self.physical) };
+            PipelineCache::load(&self.raw, &properties, folder)
+        });
     }
 
     /// Likewise, in the user's cache folder, if there is one.
@@ -261,12 +144,6 @@ impl Device {
         if let Some(folder) = user_cache_folder() {
             self.keep_pipelines_in(&folder);
         }
-    }
-
-    /// What this device is and can, as its driver says.
-    pub(super) fn properties(&self) -> vk::PhysicalDeviceProperties {
-        // SAFETY: the device is of this instance.
-        unsafe { self.instance.raw.get_physical_device_properties(self.physical) }
     }
 
     pub(super) fn pipeline_cache(&self) -> vk::PipelineCache {
@@ -342,79 +219,5 @@ impl Drop for Device {
             let _lists = loader_changes();
             self.raw.destroy_device(None);
         }
-    }
-}
-
-/// A device's UUID tells it apart from others of its name, and is of no use elsewhere.
-fn keep_needed_uuids(devices: &mut [DeviceInfo]) {
-    let names: Vec<_> = devices.iter().map(|device| device.name.clone()).collect();
-    let alone = |device: &DeviceInfo| names.iter().filter(|name| **name == device.name).count() == 1;
-    devices.iter_mut().filter(|device| alone(device)).for_each(|device| device.uuid = None);
-}
-
-fn choose<'a>(devices: &'a [DeviceInfo], wanted: Option<&str>) -> Result<&'a DeviceInfo> {
-    let Some(wanted) = wanted else {
-        let usable = devices.iter().filter(|device| device.unusable.is_none());
-        return usable.min_by_key(|device| device.rank).ok_or_else(|| {
-            let faults = devices.iter().filter_map(|device| {
-                let fault = device.unusable.as_ref()?;
-                Some(format!("{}: {fault}", device.name))
-            });
-            let faults = faults.collect::<Vec<_>>().join("; ");
-            Error::NoDevice(if faults.is_empty() { "no driver is installed".into() } else { faults })
-        });
-    };
-    let lowercase = wanted.to_lowercase();
-    let named = |device: &&DeviceInfo| !wanted.is_empty() && device.name.to_lowercase().contains(&lowercase);
-    let device = match wanted.parse::<usize>() {
-        Ok(index) => devices.get(index),
-        // Of devices of one name, a usable one.
-        Err(_) => devices.iter().filter(named).min_by_key(|device| device.unusable.is_some()),
-    };
-    let device = device.ok_or_else(|| {
-        let names = devices.iter().map(|device| format!("{} {}", device.index, device.name));
-        Error::UnknownDevice { wanted: wanted.to_owned(), available: names.collect::<Vec<_>>().join(", ") }
-    })?;
-    match &device.unusable {
-        Some(fault) => Err(Error::UnusableDevice(format!("{}: {fault}", device.name))),
-        None => Ok(device),
-    }
-}
-
-fn extensions(instance: &Instance, device: vk::PhysicalDevice) -> Result<Vec<CString>> {
-    // SAFETY: the device is of this instance.
-    let properties = unsafe { instance.raw.enumerate_device_extension_properties(device) };
-    let properties = check("listing device extensions", properties)?;
-    Ok(properties
-        .iter()
-        .filter_map(|extension| extension.extension_name_as_c_str().ok().map(CStr::to_owned))
-        .collect())
-}
-
-fn text(name: Result<&CStr, std::ffi::FromBytesUntilNulError>) -> String {
-    name.unwrap_or(c"?").to_string_lossy().into_owned()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Catches two devices of one name that a list does not tell apart.
-    #[test]
-    fn devices_of_one_name_keep_their_uuids() {
-        let named = |name: &str, uuid: &str| DeviceInfo {
-            index: 0,
-            name: name.into(),
-            kind: SOFTWARE,
-            driver: String::new(),
-            uuid: Some(uuid.into()),
-            unusable: None,
-            rank: 3,
-            raw: vk::PhysicalDevice::null(),
-            queue_family: 0,
-        };
-        let mut devices = [named("twin", "01"), named("other", "02"), named("twin", "03")];
-        keep_needed_uuids(&mut devices);
-        assert_eq!(devices.map(|device| device.uuid), [Some("01".into()), None, Some("03".into())]);
     }
 }

@@ -4,7 +4,6 @@
 //! crash on others. So a file holds a checksum before the driver's data, and the data's header, which
 //! Vulkan specifies (`VkPipelineCacheHeaderVersionOne`), must name this device.
 
-use super::Device;
 use crate::error::Result;
 use crate::pending_file::PendingFile;
 use ash::vk;
@@ -37,11 +36,14 @@ pub(super) fn user_cache_folder() -> Option<PathBuf> {
 
 impl PipelineCache {
     /// A cache with what the folder's file for this device holds.
-    pub(super) fn load(device: &Device, folder: &Path) -> Self {
-        let properties = device.properties();
-        let path = folder.join(file_name(&properties));
+    pub(super) fn load(
+        device: &ash::Device,
+        properties: &vk::PhysicalDeviceProperties,
+        folder: &Path,
+    ) -> Self {
+        let path = folder.join(file_name(properties));
         let loaded = match std::fs::read(&path) {
-            Ok(bytes) => open(&bytes, &properties).map(<[u8]>::to_vec).unwrap_or_else(|why| {
+            Ok(bytes) => open(&bytes, properties).map(<[u8]>::to_vec).unwrap_or_else(|why| {
                 log::info!("pipeline cache {}: {why}; compiling anew", path.display());
                 Vec::new()
             }),
@@ -53,7 +55,7 @@ impl PipelineCache {
         let create = |data: &[u8]| {
             let info = vk::PipelineCacheCreateInfo::default().initial_data(data);
             // SAFETY: the device is valid; the data is empty or what this driver gave before.
-            unsafe { device.raw.create_pipeline_cache(&info, None) }
+            unsafe { device.create_pipeline_cache(&info, None) }
         };
         // Pipelines are compiled without a cache as well, so its failure is none.
         let (raw, loaded) = match create(&loaded) {

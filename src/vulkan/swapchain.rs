@@ -1,22 +1,13 @@
-//! The window's surface and swapchain.
+//! The images that a window shows: acquiring, drawing, presenting.
 
 use super::command::LAYER;
 use super::image::WHOLE;
-use super::{Device, Image, Instance, Recording, check};
+use super::surface::{NO_FORMAT, Surface, USAGE, format};
+use super::{Device, Image, Recording, check};
 use crate::error::{Error, Result};
 use ash::{khr, vk};
 use std::sync::Arc;
 use std::time::Duration;
-use winit::raw_window_handle::{HandleError, HasDisplayHandle, HasWindowHandle};
-use winit::window::Window;
-
-/// A window, as Vulkan sees it.
-pub struct Surface {
-    raw: vk::SurfaceKHR,
-    loader: khr::surface::Instance,
-    _instance: Arc<Instance>,
-    _window: Arc<Window>,
-}
 
 /// The images that the window shows, and the semaphores around them.
 pub struct Swapchain {
@@ -34,11 +25,6 @@ pub struct Swapchain {
     device: Arc<Device>,
     _surface: Arc<Surface>,
 }
-
-/// What is done with the images: pictures are copied to them, and the panel is drawn on top.
-const USAGE: vk::ImageUsageFlags = vk::ImageUsageFlags::from_raw(
-    vk::ImageUsageFlags::TRANSFER_DST.as_raw() | vk::ImageUsageFlags::COLOR_ATTACHMENT.as_raw(),
-);
 
 /// How many frames the host may be ahead of the device.
 pub const FRAMES_IN_FLIGHT: usize = 2;
@@ -62,53 +48,6 @@ pub struct AcquiredImage {
     acquired: vk::Semaphore,
 }
 
-impl Surface {
-    /// The surface of a window, which it keeps.
-    ///
-    /// # Errors
-    /// What Vulkan or the window says.
-    pub fn new(instance: &Arc<Instance>, window: &Arc<Window>) -> Result<Arc<Self>> {
-        let handles = || Ok((window.display_handle()?.as_raw(), window.window_handle()?.as_raw()));
-        let (display, handle) = handles().map_err(|error: HandleError| Error::Window(error.to_string()))?;
-        // SAFETY: the handles are those of a live window, which the surface keeps alive.
-        let raw =
-            unsafe { ash_window::create_surface(&instance.entry, &instance.raw, display, handle, None) };
-        Ok(Arc::new(Self {
-            raw: check("creating the window's surface", raw)?,
-            loader: khr::surface::Instance::new(&instance.entry, &instance.raw),
-            _instance: Arc::clone(instance),
-            _window: Arc::clone(window),
-        }))
-    }
-
-    pub(super) fn presents(&self, device: vk::PhysicalDevice, family: u32) -> Result<bool> {
-        // SAFETY: device, family and surface belong to one instance.
-        let supported = unsafe { self.loader.get_physical_device_surface_support(device, family, self.raw) };
-        check("asking whether a device can present", supported)
-    }
-
-    /// Why a device that presents to it still cannot be used, if so.
-    pub(super) fn fault(&self, device: vk::PhysicalDevice) -> Result<Option<&'static str>> {
-        // SAFETY: device and surface belong to one instance, and the device presents to the surface.
-        let (capabilities, formats) = unsafe {
-            (
-                self.loader.get_physical_device_surface_capabilities(device, self.raw),
-                self.loader.get_physical_device_surface_formats(device, self.raw),
-            )
-        };
-        let capabilities = check("asking what the window takes", capabilities)?;
-        let formats = check("asking which formats the window takes", formats)?;
-        Ok(fault(&capabilities, &formats))
-    }
-}
-
-impl Drop for Surface {
-    fn drop(&mut self) {
-        // SAFETY: swapchains hold an Arc of their surface, so none is left.
-        unsafe { self.loader.destroy_surface(self.raw, None) };
-    }
-}
-
 impl Swapchain {
     /// A swapchain for a window of `size` pixels. None while the window has no area, as when it is
     /// minimised.
@@ -116,16 +55,7 @@ impl Swapchain {
     /// # Errors
     /// What Vulkan says, or [`Error::Window`] where the window takes no 8-bit picture.
     pub fn new(device: &Arc<Device>, surface: &Arc<Surface>, size: [u32; 2]) -> Result<Option<Self>> {
-        // SAFETY: the device was chosen for this surface.
-        let (capabilities, formats) = unsafe {
-            let loader = &surface.loader;
-            (
-                loader.get_physical_device_surface_capabilities(device.physical, surface.raw),
-                loader.get_physical_device_surface_formats(device.physical, surface.raw),
-            )
-        };
-        let capabilities = check("asking what the window takes", capabilities)?;
-        let formats = check("asking which formats the window takes", formats)?;
+        let (capabilities, formats) = surface.takes(device.physical)?;
         let extent = extent(&capabilities, size);
         if extent.contains(&0) {
             return Ok(None);
@@ -363,29 +293,6 @@ fn transition(
     recording.depend(&vk::DependencyInfo::default().image_memory_barriers(&barrier));
 }
 
-const NO_FORMAT: &str = "it takes no 8-bit pictures";
-
-/// The resolve pass encodes sRGB itself, so the format must not do it again.
-fn format(offered: &[vk::SurfaceFormatKHR]) -> Option<&vk::SurfaceFormatKHR> {
-    let known = [vk::Format::B8G8R8A8_UNORM, vk::Format::R8G8B8A8_UNORM];
-    offered.iter().find(|offered| known.contains(&offered.format))
-}
-
-/// What a window lacks that every frame needs.
-fn fault(
-    capabilities: &vk::SurfaceCapabilitiesKHR,
-    formats: &[vk::SurfaceFormatKHR],
-) -> Option<&'static str> {
-    let takes = |usage| capabilities.supported_usage_flags.contains(usage);
-    match () {
-        () if !takes(vk::ImageUsageFlags::TRANSFER_DST) => Some("nothing can be copied to it (TRANSFER_DST)"),
-        () if !takes(vk::ImageUsageFlags::COLOR_ATTACHMENT) => {
-            Some("nothing can be drawn on it (COLOR_ATTACHMENT)")
-        }
-        () => format(formats).is_none().then_some(NO_FORMAT),
-    }
-}
-
 fn extent(capabilities: &vk::SurfaceCapabilitiesKHR, size: [u32; 2]) -> [u32; 2] {
     let current = capabilities.current_extent;
     if current.width != u32::MAX {
@@ -405,25 +312,4 @@ fn composite_alpha(capabilities: &vk::SurfaceCapabilitiesKHR) -> vk::CompositeAl
     .into_iter()
     .find(|mode| supported.contains(*mode))
     .unwrap_or(vk::CompositeAlphaFlagsKHR::OPAQUE)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Catches a window that is used for what it does not offer: on such a device each frame breaks Vulkan's rules.
-    #[test]
-    fn a_window_that_lacks_something_is_not_used() {
-        let of = |usage, format| {
-            let capabilities = vk::SurfaceCapabilitiesKHR::default().supported_usage_flags(usage);
-            let format = vk::SurfaceFormatKHR { format, ..Default::default() };
-            fault(&capabilities, &[format])
-        };
-        let eight_bits = vk::Format::R8G8B8A8_UNORM;
-        assert_eq!(of(USAGE | vk::ImageUsageFlags::SAMPLED, eight_bits), None);
-        let lacks = |usage: vk::ImageUsageFlags| of(USAGE & !usage, eight_bits).expect("a fault");
-        assert!(lacks(vk::ImageUsageFlags::TRANSFER_DST).contains("TRANSFER_DST"));
-        assert!(lacks(vk::ImageUsageFlags::COLOR_ATTACHMENT).contains("COLOR_ATTACHMENT"));
-        assert_eq!(of(USAGE, vk::Format::R16G16B16A16_SFLOAT), Some(NO_FORMAT));
-    }
 }

@@ -108,7 +108,10 @@ pub fn prove(check: impl Fn(&Gpu) -> anyhow::Result<String>, asked: &[&str]) {
         Err(error) => panic!("{error:#}"),
     }
     for asked in asked {
-        assert!(thinlens_test_shaders::faults(asked).next().is_some(), "no fault has the tag or name {asked}");
+        assert!(
+            thinlens_test_shaders::faults(asked).next().is_some(),
+            "no fault has the tag or name {asked}"
+        );
     }
     let faults: BTreeSet<_> = asked.iter().flat_map(|asked| thinlens_test_shaders::faults(asked)).collect();
     for fault in faults {
