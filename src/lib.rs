@@ -1,30 +1,77 @@
-//! A Vulkan compute ray tracer for thin-lens depth of field.
+//! A Vulkan compute ray tracer for thin-lens depth of field. This page is its architecture.
 //!
-//! The data goes one way:
+//! # The way of the data
 //!
 //! ```text
 //! cli / app (flags, sliders) -> Settings -> Scene -> GPU twins -> Renderer
 //!   -> trace.comp -> accumulate.comp -> resolve.comp -> output::file | window
 //! ```
 //!
-//! - [`settings`] has two halves. A change of the [`settings::Estimator`] starts the film anew, a
-//!   change of the [`scene::View`] does not.
-//! - [`scene`] holds plain values and reads them from TOML and OBJ.
-//! - [`interface`] has the numbers that both sides share, and [`gpu_types`] the byte-for-byte twins of the
-//!   shaders' structs.
-//! - [`passes`] are the compute passes, each with the shader of its name in `shaders/`.
-//! - [`renderer`] owns film and passes and decides what is traced next.
-//! - [`output`] writes files, [`app`] is the window, [`cli`] the command line.
-//! - [`bench`](mod@bench) measures what it costs to render, and what comes of it.
-//! - [`reference`](mod@reference) is the renderer again, in f64 on the CPU: the oracle that [`verify`] and the
-//!   tests hold the device against. It shares no code with the device's side.
-//! - [`vulkan`] wraps the driver and is the only unsafe code.
-//! - [`pending_file`] writes files that appear whole or not at all, `input_file` reads what others made, and
-//!   [`interrupt`] leaves nothing behind when a signal ends the program.
+//! The data goes one way, and so do the imports: `tests/house.rs` says which module may use which, and that no two
+//! files of a module use each other. A few pixels through all of it:
 //!
-//! The optics are those of K. Suffern, *Ray Tracing from the Ground Up*, chapter 10: a centre ray
-//! finds the point in focus, a primary ray from a point of the lens goes through it. See
-//! `shaders/camera/thin_lens.glsl`.
+//! ```
+//! use thinlens::renderer::Renderer;
+//! use thinlens::scene::{self, SceneRef};
+//! use thinlens::settings::Settings;
+//! use thinlens::vulkan::{Device, Instance};
+//!
+//! # fn main() -> thinlens::error::Result<()> {
+//! let mut settings = Settings::of_scene(SceneRef::new(scene::load("version-4")?));
+//! settings.estimator.size = [4, 3];
+//! settings.samples = 16;
+//!
+//! let device = Device::open(&Instance::new(false, None)?, None, None)?;
+//! let mut renderer = Renderer::new(&device)?;
+//! renderer.set(&settings)?;
+//! renderer.render(|_| ())?;
+//!
+//! let film = renderer.read_film()?; // the mean red, green and blue, and the number of samples of each pixel
+//! assert_eq!(film.len(), 12);
+//! assert!(film.iter().all(|[.., count]| *count == 16.0));
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # The passes
+//!
+//! Each is a shader of its name in `shaders/` and a file in [`passes`].
+//!
+//! - **trace** takes a batch of up to 64 samples of each pixel. A sample is a point of the film, a point of the lens
+//!   and, where something moves, a time: a scrambled Sobol point, which follows from the seed, the pixel and the
+//!   sample's index alone. All pixels share one sequence. Each xors its points with a mask of its own, and the masks
+//!   lie in a tile of 128 x 128 so that neighbours err in opposite directions. Lens points come evenly from all over
+//!   the aperture, by maps that throw none away. The camera is in `shaders/camera/thin_lens.glsl`; a hole without a
+//!   lens is the same equation with the film's distance, negative, for the focal distance. One texel a pixel comes out:
+//!   the mean of the batch, and how many samples it has.
+//! - **accumulate** merges that texel into the film. It gathers from the neighbours that a wide jitter can reach, so the
+//!   result does not depend on the order of execution. In an adaptive picture it also merges the second moment of the
+//!   luminance.
+//! - **select** lists the pixels of an adaptive picture that need more samples: those whose error is still too large,
+//!   and those that may have missed something bright.
+//! - **resolve** turns the film into a picture: exposure, sRGB, and the overlays.
+//! - **pick** finds what lies under one place of the picture, and **geometry** the depth of every pixel.
+//!
+//! # The modules
+//!
+//! - [`cli`] is the command line, [`app`] the window, [`output`] writes files, and [`bench`](mod@bench) measures.
+//! - [`settings`] has two halves. A change of the [`settings::Estimator`] starts the film anew, a change of the
+//!   [`scene::View`] does not.
+//! - [`scene`] holds plain values and reads them from TOML and OBJ files.
+//! - [`interface`] has the numbers that shaders and program share: `build.rs` makes GLSL of it. [`gpu_types`] has the
+//!   byte-for-byte twins of the shaders' structs, and makes them of a scene.
+//! - [`renderer`] owns the film and the passes, and decides what is traced next. The time of a submission is bounded,
+//!   which never changes the picture: [`renderer::schedule`].
+//! - [`reference`](mod@reference) is the oracle: the renderer again, in f64 on the CPU. It shares no code with the
+//!   device's side. [`verify`] and the tests compare the device with it.
+//! - [`vulkan`] wraps the driver and is the only unsafe code. It knows no scenes.
+//! - [`error`] has every error that a user can meet. [`pending_file`] writes files that appear whole or not at all,
+//!   `input_file` reads what others made, and [`interrupt`] leaves nothing behind when a signal ends the program.
+//!
+//! CONTRIBUTING.md lists the files to touch to add a shape, a setting or an overlay.
+//!
+//! The optics are those of K. Suffern, *Ray Tracing from the Ground Up*, chapter 10: a centre ray finds the point in
+//! focus, and primary rays from points all over the lens go through that point.
 
 pub mod app;
 pub mod bench;
