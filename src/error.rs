@@ -22,7 +22,7 @@ pub enum Error {
          installed; install it (./setup.sh, or the package vulkan-validationlayers), or leave out --validation"
     )]
     NoValidationLayer,
-    /// No device can run the renderer. Holds why each one was passed over.
+    /// No device can run the renderer. The text says why for each.
     #[error(
         "no usable Vulkan 1.3 device ({0}); install a driver for your GPU, or the software device \
          lavapipe: ./setup.sh, or the package mesa-vulkan-drivers"
@@ -31,7 +31,7 @@ pub enum Error {
     /// `--device` names no device.
     #[error("no device '{wanted}'; there are: {available}")]
     UnknownDevice {
-        /// As given.
+        /// The text as it was given.
         wanted: String,
         /// The devices, as index and name.
         available: String,
@@ -81,12 +81,12 @@ pub enum Error {
     /// SCENE is neither a built-in nor a file.
     #[error("no scene '{name}'; {hint}")]
     UnknownScene {
-        /// As given.
+        /// The text as it was given.
         name: String,
-        /// Near names, or all of them.
+        /// Similar names, or all names.
         hint: String,
     },
-    /// The output's name asks for no known format.
+    /// The name of the output ends in no known format.
     #[error("cannot write '{}': its name must end in .png or .exr", .0.display())]
     UnknownFormat(PathBuf),
     /// A picture file does not say how it was made.
@@ -113,7 +113,7 @@ pub enum Error {
         /// Why, and what to do.
         reason: String,
     },
-    /// Two things that are to be written are one file, or what is to be written is what it is made from.
+    /// Two outputs are the same file, or an output is a file that it is made from.
     #[error("{0}")]
     SameFile(String),
     /// A scene file is wrong. Lines count from 1.
@@ -153,7 +153,7 @@ pub enum Error {
         /// In pixels from the top.
         y: f32,
     },
-    /// The validation layer spoke.
+    /// The validation layer reported problems. Holds how many.
     #[error("the validation layer gave {0} message(s), printed above; please report them as a bug")]
     Validation(usize),
     /// The device and the oracle do not agree.
@@ -204,7 +204,7 @@ pub(crate) fn cannot_read(path: &Path, error: &std::io::Error) -> Error {
     Error::Read { path: path.to_path_buf(), reason }
 }
 
-/// Likewise, for a file that cannot be written.
+/// Why a file cannot be written, and what to do about it.
 pub(crate) fn cannot_write(path: &Path, error: &std::io::Error) -> Error {
     let reason = match error.kind() {
         ErrorKind::NotFound => missing(path, "make the folder first, or choose another place"),
@@ -216,7 +216,7 @@ pub(crate) fn cannot_write(path: &Path, error: &std::io::Error) -> Error {
     Error::Write { path: path.to_path_buf(), reason }
 }
 
-/// What of a path is not there.
+/// The first part of a path that does not exist.
 fn missing(path: &Path, advice: &str) -> String {
     if let Ok(target) = std::fs::read_link(path) {
         return format!("it is a link to {}, which does not exist; make the link anew", target.display());
@@ -227,7 +227,7 @@ fn missing(path: &Path, advice: &str) -> String {
     }
 }
 
-/// What reading and writing have in common.
+/// The reasons that reading and writing have in common.
 fn reason(error: &std::io::Error) -> String {
     let known = match error.kind() {
         ErrorKind::IsADirectory => "it is a folder; name a file",

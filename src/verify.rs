@@ -1,4 +1,4 @@
-//! Holds what a device renders against the oracle, sample by sample.
+//! Compares what a device renders with the oracle, sample by sample.
 
 use crate::error::{Error, Result};
 use crate::reference::Reference;
@@ -7,14 +7,14 @@ use crate::renderer::Renderer;
 use crate::settings::{DeviceChoice, Settings};
 use crate::vulkan::{Device, Instance};
 
-/// Two samples agree when every channel does within this share of the oracle's value or of one,
-/// whichever is larger: some hundred times what f32 loses on the way of a ray.
+/// Two samples agree when every channel differs by at most this share of the oracle's value or of 1, whichever is larger.
+/// That is about a hundred times what f32 loses along a ray.
 pub const TOLERANCE: f64 = 1e-3;
-/// Next to edges rounding decides what a ray hits, so samples may differ entirely. This share of
-/// them may: several times what the built-in scenes show.
+/// The share of samples that may differ. Next to edges, rounding decides what a ray hits, so some samples differ entirely.
+/// This is several times the share that the built-in scenes show.
 pub const MAX_MISMATCH_SHARE: f64 = 1e-3;
 
-/// After so many samples the film starts anew, for what one more adds to a mean of f32 gets lost.
+/// After so many samples the film starts anew, for one more would change a mean in f32 too little to be compared.
 const SAMPLES_PER_SEED: u32 = 16;
 
 /// How far a device and the oracle agree.
@@ -22,18 +22,18 @@ const SAMPLES_PER_SEED: u32 = 16;
 pub struct Agreement {
     /// Samples compared.
     pub samples: u64,
-    /// Of which so many differ by more than [`TOLERANCE`].
+    /// Samples that differ by more than [`TOLERANCE`].
     pub mismatches: u64,
-    /// The largest difference of those that agree, as a share of the oracle's value or of one.
+    /// The largest difference of samples that agree, as a share of the oracle's value or of 1, whichever is larger.
     pub worst_agreeing: f64,
     /// Sum over samples and channels of the device's values, and of the oracle's.
     pub sums: [f64; 2],
 }
 
 impl Agreement {
-    /// Takes in samples: the device's and the oracle's, r, g, b and how many of each pixel.
+    /// Adds samples of the device and of the oracle: the r, g, b of each pixel, and how many samples it got.
     pub fn add(&mut self, device: &[[f64; 4]], oracle: &[[f64; 4]]) {
-        // A pixel that nothing was added to on either side has nothing to compare.
+        // A pixel that got no sample on either side has nothing to compare.
         let texels =
             device.iter().zip(oracle).filter(|(device, oracle)| device[3] != 0.0 || oracle[3] != 0.0);
         for (device, oracle) in texels {
@@ -60,15 +60,15 @@ impl Agreement {
         self.mismatches as f64 / (self.samples as f64).max(1.0)
     }
 
-    /// How much brighter the device's picture is than the oracle's, all in all, as a share.
+    /// How much brighter the device's whole picture is than the oracle's, as a share.
     pub fn brightness_difference(&self) -> f64 {
         // Two black pictures are equally bright.
         if self.sums[0] == self.sums[1] { 0.0 } else { self.sums[0] / self.sums[1] - 1.0 }
     }
 
-    /// Whether it is within bounds.
+    /// Whether the differences are within bounds.
     pub fn holds(&self) -> bool {
-        // Mismatches at edges go either way, so the brightness moves by less than their share.
+        // Samples that differ at edges are as often brighter as darker, so the brightness differs by less than their share.
         self.samples > 0
             && self.mismatch_share() <= MAX_MISMATCH_SHARE
             && self.brightness_difference().abs() <= MAX_MISMATCH_SHARE
@@ -80,7 +80,7 @@ impl Agreement {
 /// by one.
 ///
 /// # Errors
-/// What Vulkan says, [`Error::OutOfRange`], or [`Error::Disagreement`].
+/// [`Error::Disagreement`], [`Error::OutOfRange`], or those of rendering.
 pub fn verify(renderer: &mut Renderer, settings: &Settings) -> Result<Agreement> {
     let mut agreement = Agreement::default();
     let mut settings = settings.clone();
@@ -126,10 +126,10 @@ fn added(before: &[[f64; 4]], after: &[[f64; 4]]) -> Vec<[f64; 4]> {
     before.iter().zip(after).map(texel).collect()
 }
 
-/// Verifies a device with several pictures and says how they agree, a line each.
+/// Verifies a device with several pictures, and gives a line about each.
 ///
 /// # Errors
-/// As [`verify`], for the first that does not hold; [`Error::Validation`] if the layer spoke.
+/// As [`verify`] for the first picture that disagrees, and [`Error::Validation`] if the layer had something to say.
 pub fn run(pictures: &[Settings], choice: &DeviceChoice) -> Result<String> {
     let instance = Instance::new(choice.validation, None)?;
     let device = Device::open(&instance, choice.device.as_deref(), None)?;

@@ -10,18 +10,18 @@ use std::time::Instant;
 /// The error is measured at each power of two of samples per pixel up to here.
 pub const ERROR_SAMPLES: u32 = 256;
 
-/// Samples per pixel of the picture that others are held against. Its own error is that of 2048 samples,
-/// and so adds to another's by 2048 / n in the square: an eighth at most in independent sampling.
+/// Samples per pixel of the picture that others are compared with. Its own squared error is n / 2048 of that of a picture
+/// of n independent samples: at most an eighth, at n = 256.
 pub(super) const REFERENCE_SAMPLES: u32 = 2048;
 
-/// No run has this seed, so that the picture's errors have nothing to do with theirs.
+/// No run has this seed, so that the errors of the reference picture are independent of theirs.
 const REFERENCE_SEED: u32 = 0xC0FF_EE00;
 
-/// The root of the mean square of the differences of two films, over pixels and the channels r, g, b. In
-/// linear light: a tone curve would hide errors in what is bright.
+/// The root of the mean square of the differences of two films, over pixels and the channels r, g, b. The values are
+/// linear light, for a tone curve would hide errors in bright parts.
 ///
 /// # Panics
-/// If they are not of one size.
+/// If the films have different sizes.
 pub fn rmse(film: &[[f32; 4]], reference: &[[f32; 4]]) -> f64 {
     assert_eq!(film.len(), reference.len(), "films of one size");
     let squares = film
@@ -31,7 +31,7 @@ pub fn rmse(film: &[[f32; 4]], reference: &[[f32; 4]]) -> f64 {
     (squares.sum::<f64>() / (3 * film.len()) as f64).sqrt()
 }
 
-/// A picture as good as converged.
+/// The reference: a picture that has nearly converged.
 pub(super) fn reference(renderer: &mut Renderer, settings: &Settings) -> Result<Vec<[f32; 4]>> {
     let mut settings = settings.clone();
     settings.samples = REFERENCE_SAMPLES;
@@ -50,7 +50,7 @@ pub(super) fn converge(
 ) -> Result<Vec<Convergence>> {
     let stops = || (0..=ERROR_SAMPLES.ilog2()).map(|power| 1 << power);
     let pixels = settings.estimator.size.map(f64::from).iter().product::<f64>();
-    // Of each stop, the runs' samples traced, seconds and errors.
+    // For each number of samples: the samples that were traced, the seconds, and the errors of the runs.
     let mut points: Vec<[Vec<f64>; 3]> = stops().map(|_| Default::default()).collect();
     let mut settings = settings.clone();
     for seed in 1..=runs {

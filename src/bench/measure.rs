@@ -9,8 +9,7 @@ use crate::settings::{DeviceChoice, Settings};
 use crate::vulkan::{Device, Instance};
 use std::time::{Duration, Instant};
 
-/// The error is measured on pictures no larger than this, for the one that they are held against takes the
-/// most time of all.
+/// The error is measured on pictures no larger than this, for the reference picture takes more time than all else.
 const ERROR_SIZE: [u32; 2] = [320, 240];
 
 /// All figures of a scene.
@@ -63,7 +62,7 @@ fn throughput(renderer: &mut Renderer, picture: &Settings, runs: u32) -> Result<
             before = progress.device_time;
         })?;
         let seconds = started.elapsed().as_secs_f64();
-        // The first one warms up: drivers compile late, and nothing is measured yet to cut tiles by.
+        // The first picture is a warm-up: drivers compile late, and the size of submissions has not settled.
         if run > 0 {
             let progress = renderer.progress();
             samples.push(progress.traced as f64 / seconds / 1e6);
@@ -92,7 +91,7 @@ fn first_picture(renderer: &mut Renderer, picture: &Settings, started: Instant) 
     Ok(started.elapsed().as_secs_f64())
 }
 
-/// The times from nothing at all: no instance, no device, no pipelines.
+/// The times to a first picture from the start: no instance, no device and no pipelines yet.
 fn from_start(picture: &Settings, choice: &DeviceChoice, runs: u32) -> Result<Vec<f64>> {
     let time = |_| {
         let started = Instant::now();
@@ -109,7 +108,7 @@ fn from_start(picture: &Settings, choice: &DeviceChoice, runs: u32) -> Result<Ve
     Ok(times[1..].to_vec())
 }
 
-/// The times from a change of the focal distance.
+/// The times to a first picture after a change of the focal distance.
 fn from_change(renderer: &mut Renderer, picture: &Settings, runs: u32) -> Result<Vec<f64>> {
     let mut settings = picture.clone();
     let mut time = |run: u32| {

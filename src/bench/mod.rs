@@ -1,8 +1,8 @@
 //! Measures a device: how many samples and rays a second, how soon there is a picture, how long a
 //! submission keeps the device busy, and how the error falls with samples and with seconds.
 //!
-//! Everything is measured several times, after a warm-up that is thrown away, and given as a median with the
-//! quartiles and extremes around it. Rates are of wall-clock time, and beside it of the device's own.
+//! Everything is measured several times after a warm-up, and given as a median with quartiles and extremes. Rates are
+//! given by wall-clock time, and by the device's own clock.
 
 mod convergence;
 mod measure;
@@ -21,7 +21,7 @@ use crate::settings::{DeviceChoice, Sampler, Settings};
 use crate::vulkan::{Device, Instance};
 use std::path::{Path, PathBuf};
 
-/// How often anything is measured at most.
+/// The largest number of runs.
 pub const MAX_RUNS: u32 = 1000;
 
 /// What to measure.
@@ -37,7 +37,7 @@ pub struct Job {
     pub json: Option<PathBuf>,
 }
 
-/// Of the adaptive variant: the error of some 150 samples a pixel everywhere, in the default scene.
+/// The noise threshold of the adaptive variant: the error of about 150 samples a pixel in the default scene.
 const NOISE_THRESHOLD: f32 = 0.05;
 
 /// A way to render that is compared with the others: what it changes of the settings.
@@ -60,7 +60,7 @@ fn variants() -> Vec<Variant> {
 /// Measures, and prints or writes the figures.
 ///
 /// # Errors
-/// Whatever keeps it from it; [`Error::Validation`] if the layer had something to say.
+/// Those of loading and rendering, and [`Error::Validation`] if the layer had something to say.
 pub fn run(job: &Job) -> Result<()> {
     if !(1..=MAX_RUNS).contains(&job.runs) {
         return Err(Error::OutOfRange(format!("runs is {}, but must be from 1 to {MAX_RUNS}", job.runs)));

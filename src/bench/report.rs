@@ -14,7 +14,7 @@ pub struct Report {
     pub driver: String,
     /// How often everything was measured.
     pub runs: u32,
-    /// A scene each.
+    /// The figures of each scene.
     pub scenes: Vec<SceneReport>,
 }
 
@@ -31,9 +31,9 @@ pub struct SceneReport {
     pub first_picture: Change,
     /// Width and height in pixels of the pictures that the error was measured with.
     pub error_size: [u32; 2],
-    /// Samples per pixel of the picture that these were held against.
+    /// Samples per pixel of the picture that these were compared with.
     pub reference_samples: u32,
-    /// Each way to render.
+    /// The figures of each way to render.
     pub variants: Vec<VariantReport>,
 }
 

@@ -1,4 +1,4 @@
-//! What is said of repeated measurements.
+//! Medians and quartiles of repeated measurements.
 
 use serde::Serialize;
 
@@ -11,14 +11,14 @@ pub struct Spread {
     pub lower_quartile: f64,
     /// A quarter of them is above.
     pub upper_quartile: f64,
-    /// The least.
+    /// The smallest.
     pub min: f64,
-    /// The most.
+    /// The largest.
     pub max: f64,
 }
 
 impl Spread {
-    /// Of these values, of which there must be some. Between two of them it is interpolated.
+    /// The spread of these values, of which there must be at least one. Quartiles between two values are interpolated.
     pub fn of(values: &[f64]) -> Self {
         let mut sorted = values.to_vec();
         sorted.sort_by(f64::total_cmp);

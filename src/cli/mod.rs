@@ -28,12 +28,12 @@ const SWEPT_F_NUMBERS: [f64; 4] = [2.8, 5.6, 11.0, 32.0];
         thinlens render bunny.obj -o bunny.png         a mesh, on a ground, in focus"
 )]
 pub struct Cli {
-    /// Without one, the viewer opens.
+    /// The command. Without one, the viewer opens.
     #[command(subcommand)]
     pub command: Option<Command>,
 }
 
-/// What to do.
+/// A command.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Open the viewer (the default); with no display, render to thinlens.png
@@ -193,7 +193,7 @@ pub struct DeviceArgs {
 /// The command line that the program was started with. Wrong use and help end the program here.
 pub fn parse() -> Cli {
     Cli::try_parse().unwrap_or_else(|error| {
-        // What clap takes for options may be a file's name.
+        // A file's name may look like an option to clap.
         let is_file = |word: &OsString| {
             let name = Path::new(word).extension().and_then(|extension| extension.to_str());
             let dash = word.as_encoded_bytes().starts_with(b"-");
@@ -217,7 +217,7 @@ impl DeviceArgs {
 }
 
 impl SweepArgs {
-    /// What the pictures differ in.
+    /// What differs from picture to picture.
     pub fn sweep(&self) -> Sweep {
         if !self.lens_diameters.is_empty() {
             Sweep::LensDiameters(self.lens_diameters.clone())
@@ -232,10 +232,10 @@ impl SweepArgs {
 }
 
 impl BenchArgs {
-    /// A picture of each scene that was named, or that is built in.
+    /// The settings of a picture of each scene that was named, or of each built-in scene.
     ///
     /// # Errors
-    /// Of the scene, or [`crate::error::Error::OutOfRange`].
+    /// Those of loading a scene, or [`crate::error::Error::OutOfRange`].
     pub fn pictures(&self) -> Result<Vec<Settings>> {
         let picture = |name: &Path| {
             let mut settings = Settings::of_scene(SceneRef::new(scene::load(name)?));

@@ -12,12 +12,12 @@ use exr::prelude::{
 use std::io::Cursor;
 use std::path::Path;
 
-/// Saves the picture that a renderer has by now: that of so many samples as it has, whatever it goes for. It goes
-/// for no more afterwards.
+/// Saves the picture that a renderer has by now, with the samples that it has so far. The renderer's target is that number
+/// afterwards.
 ///
 /// # Errors
-/// [`Error::UnknownFormat`], [`Error::OutOfRange`] while there is no whole pass yet, [`Error::Write`], or what
-/// Vulkan says.
+/// [`Error::UnknownFormat`], [`Error::OutOfRange`] while there is no whole pass yet, [`Error::Write`], or those of
+/// rendering.
 pub fn save(renderer: &mut Renderer, settings: &Settings, path: &Path) -> Result<()> {
     let format = PictureFormat::of(path).ok_or_else(|| Error::UnknownFormat(path.to_path_buf()))?;
     renderer.settle()?;
@@ -29,7 +29,7 @@ pub fn save(renderer: &mut Renderer, settings: &Settings, path: &Path) -> Result
     }
     let settings = Settings { samples, ..settings.clone() };
     renderer.set(&settings)?;
-    // Other settings than the picture is of would have started it anew.
+    // Settings that the film was not rendered with would have started it anew.
     if renderer.progress().samples != samples {
         return Err(Error::OutOfRange("the picture has just changed; save it in a moment".into()));
     }
@@ -40,7 +40,7 @@ pub fn save(renderer: &mut Renderer, settings: &Settings, path: &Path) -> Result
 /// Saves settings as a scene file: [`Settings::scene_file`].
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for a name that is no scene's, [`Error::Write`], or of reading the scene's own file.
+/// [`Error::OutOfRange`] for a name that does not end in `.toml`, [`Error::Write`], or those of reading the scene's file.
 pub fn save_scene(settings: &Settings, path: &Path) -> Result<()> {
     if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("toml")) {
         return Err(Error::OutOfRange(format!("a scene file is a .toml; {} is not", path.display())));
@@ -57,10 +57,10 @@ pub fn save_scene(settings: &Settings, path: &Path) -> Result<()> {
     PendingFile::create(path)?.write(text.as_bytes())
 }
 
-/// Writes the picture that a renderer has, and the settings that it is of.
+/// Writes the picture that a renderer has, with the settings that it was rendered with.
 ///
 /// # Errors
-/// [`Error::Write`], or what Vulkan says.
+/// [`Error::Write`], or those of rendering.
 pub fn write_picture(
     renderer: &mut Renderer,
     settings: &Settings,
@@ -90,8 +90,8 @@ pub fn write_png(
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, width, height);
         encoder.set_color(png::ColorType::Rgb);
-        // Some twenty times as fast as the default, which would take a fifth of the time of a quick look
-        // from start to file; a picture with little noise grows by a seventh.
+        // About twenty times as fast as the default, which would take a fifth of the time of a quick picture. The file of
+        // a picture with little noise grows by a seventh.
         encoder.set_compression(png::Compression::Fast);
         encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
         if let Some(origin) = origin {

@@ -17,9 +17,9 @@ pub struct Job {
     pub settings: Settings,
     /// The picture that the settings are from, if they are from one.
     pub from: Option<PathBuf>,
-    /// Where the picture is to be in focus, if not where the settings say.
+    /// The place of the picture to focus on, in place of the focal distance of the settings.
     pub autofocus: Option<Place>,
-    /// Where to: `.png` for 8-bit sRGB, `.exr` for linear values and counts.
+    /// The file: `.png` for 8-bit sRGB, `.exr` for linear values and counts.
     pub output: PathBuf,
     /// Where to write [`Stats`], if anywhere.
     pub stats: Option<PathBuf>,
@@ -32,7 +32,7 @@ pub struct Job {
 /// Renders, and writes the file.
 ///
 /// # Errors
-/// Whatever keeps it from it; [`Error::Validation`] if the layer had something to say.
+/// Those of rendering and of writing, and [`Error::Validation`] if the layer had something to say.
 pub fn render(job: &Job) -> Result<()> {
     job.settings.check()?;
     let format = PictureFormat::of(&job.output).ok_or_else(|| Error::UnknownFormat(job.output.clone()))?;
@@ -40,11 +40,11 @@ pub fn render(job: &Job) -> Result<()> {
     let mut outputs = vec![("--output", job.output.as_path())];
     outputs.extend(job.stats.as_deref().map(|stats| ("--stats", stats)));
     keep_apart(&outputs, &files)?;
-    // The picture itself may be written anew, but not turned into figures.
+    // The picture that the settings are from may be written anew, but the figures may not replace it.
     let from = job.from.as_deref().map(|from| ("the picture of --from", from));
     keep_apart(&outputs[1..], from.as_slice())?;
     let instance = Instance::new(job.device.validation, None)?;
-    // What went wrong first is the better reason.
+    // An error of rendering came first, so it is the better reason.
     render_on(&instance, job, format)?;
     instance.check_validation()
 }
@@ -73,7 +73,7 @@ pub fn render_instead(settings: Settings, device: DeviceChoice, why: &str) -> Re
     say(&format!("next, try: {program} render {scene} --lens-diameter 0 -o pinhole.png"))
 }
 
-/// The settings with the focal plane at the depth of what lies there.
+/// The settings, with the focal plane at the depth of what lies at a place of the picture.
 fn focus(renderer: &mut Renderer, settings: &Settings, place: Place) -> Result<Settings> {
     let size = settings.estimator.size.map(|extent| extent as f32);
     let position = match place {

@@ -10,7 +10,7 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
-/// The key of it in a file: of a PNG's text, and of an EXR's attribute.
+/// The keyword of the text in a PNG, and the name of the attribute in an EXR.
 const KEY: &str = "thinlens";
 /// The most bytes that the text has once it is unpacked.
 const MOST_TEXT: usize = 1 << 20;
@@ -18,15 +18,15 @@ const MOST_TEXT: usize = 1 << 20;
 /// What a picture file says of how it was made, as JSON.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Origin {
-    /// Of the program.
+    /// The version of the program.
     version: String,
-    /// What follows `thinlens render`, but for where to.
+    /// The arguments that follow `thinlens render`, without `-o`.
     #[serde(with = "saved_names")]
     pub arguments: Vec<OsString>,
 }
 
 impl Origin {
-    /// Of a picture that these arguments render.
+    /// The origin of a picture that these arguments render.
     pub fn new(arguments: Vec<OsString>) -> Self {
         Self { version: env!("CARGO_PKG_VERSION").into(), arguments }
     }
@@ -42,7 +42,7 @@ impl Origin {
         }
         let mut file = input_file::open(path)?;
         let beginning = input_file::beginning(&mut file).map_err(|error| cannot_read(path, &error))?;
-        // By what it is: a name is easily changed.
+        // The contents decide, for a name is easily changed.
         let text = match input_file::kind(&beginning) {
             Some(input_file::PNG) => input_file::guarded(|| text_of_png(file)),
             Some(input_file::EXR) => input_file::guarded(|| text_of_exr(file)),
@@ -55,7 +55,7 @@ impl Origin {
         serde_json::from_str(&text).map_err(|error| without(error.to_string()))
     }
 
-    /// As text of plain ASCII, which every file format can hold.
+    /// The origin as text of plain ASCII, which every file format can hold.
     fn text(&self) -> String {
         let json = serde_json::to_string(self).expect("names are JSON");
         let mut text = String::new();
@@ -79,16 +79,16 @@ impl Origin {
         encoder.add_text_chunk(KEY.into(), self.text())
     }
 
-    /// As an EXR's attribute.
+    /// The origin as an attribute of an EXR.
     pub(super) fn attribute(&self) -> (ExrText, AttributeValue) {
         (ExrText::from(KEY), AttributeValue::Text(ExrText::from(self.text().as_str())))
     }
 }
 
-/// What the file of this kind says, if it says anything; or what is wrong with it.
+/// The text that a file has, if it has one, or what is wrong with the file.
 type Text = std::result::Result<Option<String>, String>;
 
-/// From wherever the text stands in a PNG: programs that save it anew put it behind the pixels, or pack it.
+/// Finds the text wherever it stands in a PNG: programs that save a picture anew put it behind the pixels, or compress it.
 fn text_of_png(file: File) -> Text {
     let damaged = |error: png::DecodingError| format!("the file is damaged ({error})");
     let mut reader = png::Decoder::new(BufReader::new(file)).read_info().map_err(damaged)?;

@@ -9,13 +9,13 @@ use std::convert::Infallible;
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
-/// Between plain lines.
+/// The time between plain lines.
 const LINE_EVERY: Duration = Duration::from_secs(5);
 
-/// Loading that takes no longer needs no word.
+/// Loading that takes no longer than this is not mentioned.
 const LOADING_UNSAID: Duration = Duration::from_millis(500);
 
-/// Loads a scene, and says on standard error what took a while.
+/// Loads a scene, and says so on standard error if it took a while.
 ///
 /// # Errors
 /// Those of `load`.
@@ -30,7 +30,7 @@ pub fn load(quiet: bool, load: impl FnOnce() -> Result<Settings>) -> Result<Sett
     Ok(settings)
 }
 
-/// What there is to say of a scene that took so long to load.
+/// The line about a scene that took so long to load, if it deserves one.
 pub fn loading_line(scene: &str, triangles: u64, took: Duration) -> Option<String> {
     let seconds = took.as_secs_f64();
     (took >= LOADING_UNSAID)
@@ -39,7 +39,7 @@ pub fn loading_line(scene: &str, triangles: u64, took: Duration) -> Option<Strin
 
 /// Shows progress on standard error.
 pub(super) struct ProgressDisplay {
-    /// Taken off the terminal when a signal ends the program.
+    /// The bar, which is removed from the terminal when a signal ends the program.
     bar: Option<(ProgressBar, Leftover)>,
     target: u32,
     pixels: u64,

@@ -4,15 +4,15 @@ use crate::error::{Error, Result};
 use crate::scene::MAX_EXTENT;
 use ab_glyph::{Font, FontRef, Glyph, PxScale, ScaleFont, point};
 
-/// Around the sheet and between its pictures, in pixels.
+/// The margin around the sheet and between its pictures, in pixels.
 const MARGIN: u32 = 16;
 /// Grey, as sRGB bytes.
 const BACKGROUND: u8 = 24;
 const LABEL: u8 = 235;
 const DETAIL: u8 = 160;
-/// Height of letters in pixels, as long as the picture is wide enough.
+/// The height of letters in pixels, where the pictures are large enough.
 const LETTERS: [f32; 2] = [14.0, 40.0];
-/// What part of a picture's height they have.
+/// The height of letters below smaller pictures, as a share of the picture's height.
 const LETTERS_SHARE: f32 = 1.0 / 20.0;
 
 /// The sheet, built picture by picture.
@@ -27,7 +27,7 @@ pub(super) struct Sheet {
 }
 
 impl Sheet {
-    /// A sheet for so many pictures of this size, in so many columns, or about as many as rows.
+    /// A sheet for so many pictures of this size, in so many columns, or else in about as many columns as rows.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if it grows too large, or has columns that stay empty.
@@ -66,8 +66,8 @@ impl Sheet {
         &self.rgba
     }
 
-    /// Puts the picture of this index in its place, and writes under it: on the left what it is, on the right
-    /// what else there is to know, if there is room.
+    /// Puts the picture with this index in its place, and writes under it: on the left its name, and on the right what else
+    /// there is to know, if there is room.
     pub(super) fn place(&mut self, index: u32, rgba: &[u8], [label, detail]: &[String; 2]) {
         let [width, height] = self.picture;
         let left = MARGIN + index % self.columns * (width + MARGIN);
@@ -86,7 +86,7 @@ impl Sheet {
         }
     }
 
-    /// The letters of a line, from 0 on, and how wide it is.
+    /// The letters of a line that begins at 0, and the width of the line.
     fn line(&self, text: &str, letters: f32) -> (Vec<Glyph>, f32) {
         let font = self.font.as_scaled(PxScale::from(letters));
         let (mut glyphs, mut x) = (Vec::<Glyph>::new(), 0.0);
@@ -121,7 +121,7 @@ impl Sheet {
     }
 }
 
-/// What lies between two rows of pictures, a line of text among it.
+/// The height of what lies between two rows of pictures: a line of text, and the margins around it.
 fn row_gap(letters: f32) -> u32 {
     (1.7 * letters) as u32 + MARGIN / 2
 }

@@ -1,4 +1,4 @@
-//! A sheet of pictures, of one lens after the other.
+//! A sheet of pictures of one scene through several lenses.
 
 use super::progress::ProgressDisplay;
 use super::sheet::Sheet;
@@ -14,13 +14,13 @@ use std::sync::Arc;
 /// A sheet to render.
 #[derive(Debug, Clone)]
 pub struct SweepJob {
-    /// What its pictures have in common.
+    /// The settings that its pictures have in common.
     pub settings: Settings,
-    /// What they have not.
+    /// What differs from picture to picture.
     pub sweep: Sweep,
-    /// Pictures in a row; about as many as rows if none.
+    /// Pictures in a row. If none is given, about as many as there are rows.
     pub columns: Option<u32>,
-    /// Where to: a `.png`.
+    /// The file, a `.png`.
     pub output: PathBuf,
     /// Where to render.
     pub device: DeviceChoice,
@@ -31,7 +31,7 @@ pub struct SweepJob {
 /// Renders a sheet, and writes the file.
 ///
 /// # Errors
-/// Whatever keeps it from it; [`Error::Validation`] if the layer had something to say.
+/// Those of rendering and of writing, and [`Error::Validation`] if the layer had something to say.
 pub fn sweep(job: &SweepJob) -> Result<()> {
     if PictureFormat::of(&job.output) != Some(PictureFormat::Png) {
         return Err(Error::OutOfRange(format!(
@@ -43,7 +43,7 @@ pub fn sweep(job: &SweepJob) -> Result<()> {
     let pictures = job.sweep.pictures(&job.settings)?;
     let sheet = Sheet::new(job.settings.estimator.size, pictures.len() as u32, job.columns)?;
     let instance = Instance::new(job.device.validation, None)?;
-    // What went wrong first is the better reason.
+    // An error of rendering came first, so it is the better reason.
     sweep_on(&instance, job, &pictures, sheet)?;
     instance.check_validation()
 }

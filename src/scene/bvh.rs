@@ -9,7 +9,7 @@ use obvhs::aabb::Aabb as Bounds;
 use obvhs::bvh2::Bvh2;
 use std::collections::HashSet;
 
-/// Children of a node, at most.
+/// The most children that a node has.
 const WIDTH: usize = 4;
 
 /// The last plane of a node's grid; the first is 0.
@@ -24,9 +24,9 @@ const DEEPEST: u32 = 24;
 pub struct Bvh {
     /// Nodes and leaves. The first is the root; the children of a node follow one another, behind it.
     pub records: Vec<Record>,
-    /// The shapes, where they are in the middle of the exposure. Copies of others have no leaf.
+    /// The scene's bounded shapes, where they are in the middle of the exposure. A copy of another shape has no leaf.
     pub shapes: Vec<Shaded>,
-    /// Nodes on the longest way from the root to a leaf.
+    /// The number of nodes on the longest path from the root to a leaf.
     pub depth: u32,
 }
 
@@ -42,21 +42,21 @@ pub enum Record {
 /// The boxes of a node's children, on a grid whose planes stand powers of two apart.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Node {
-    /// Where all the grid's planes 0 meet.
+    /// The corner of the grid where the first planes of all three axes meet.
     pub origin: Vec3,
-    /// By axis: the grid's step is `2^exponent`, at least the smallest that f32 has in full.
+    /// For each axis: the planes are `2^exponent` apart, which is at least the smallest normal f32.
     pub exponents: [i32; 3],
-    /// By axis, then child: the planes below and above it.
+    /// For each axis and child: the planes below and above the child.
     pub planes: [[[u8; WIDTH]; 2]; 3],
     /// The index of the first child's record.
     pub first: u32,
-    /// How many children there are; the planes of others mean nothing.
+    /// How many children there are. The planes beyond them mean nothing.
     pub children: u32,
 }
 
 impl Bvh {
-    /// Around these shapes, which have bounds, and all places where they come by while the shutter is open for so
-    /// many seconds. None where there are none.
+    /// The tree of shapes that have bounds. Its boxes hold each shape wherever it is while the shutter is open, for so many
+    /// seconds. None where there are no shapes.
     pub fn new(shapes: Vec<Shaded>, shutter: f32) -> Option<Self> {
         if shapes.is_empty() {
             return None;
@@ -71,7 +71,7 @@ impl Bvh {
     }
 }
 
-/// The box around a shape and all places where it comes by, wider by what f32 may lose of a point on it.
+/// The box around a shape wherever it is during the exposure, wider by what f32 may lose of a point on it.
 fn bounds(of: &Shaded, shutter: f32) -> Bounds {
     let [lower, upper] = of.shape.bounds().expect("only bounded shapes are in a tree");
     let way = 0.5 * shutter * of.velocity.abs();
@@ -80,8 +80,8 @@ fn bounds(of: &Shaded, shutter: f32) -> Bounds {
     Bounds::new(Vec3A::from(lower - margin), Vec3A::from(upper + margin))
 }
 
-/// The indices of shapes along the curve, of those in one place the first only: no ray sees more of them, but
-/// each would try all.
+/// The indices of shapes in the order of the curve. Of shapes that cover one another exactly, only the first is listed: a
+/// ray sees no other, but would have to try all of them.
 fn without_copies(along_curve: &[(u128, u32)], shapes: &[Shaded]) -> Vec<u32> {
     let mut indices = Vec::with_capacity(along_curve.len());
     for run in along_curve.chunk_by(|a, b| a.0 == b.0) {
@@ -94,7 +94,7 @@ fn without_copies(along_curve: &[(u128, u32)], shapes: &[Shaded]) -> Vec<u32> {
 
 /// What shapes that always cover one another have in common: their kind, and the bits of numbers.
 fn place(of: &Shaded) -> (std::mem::Discriminant<Shape>, [[u32; 3]; 4]) {
-    // -0 and 0 are one place.
+    // -0 and 0 are the same place.
     let bits = |vector: Vec3| (vector + Vec3::ZERO).to_array().map(f32::to_bits);
     let [a, b, c] = of.shape.place();
     (std::mem::discriminant(&of.shape), [a, b, c, of.velocity].map(bits))
@@ -103,7 +103,7 @@ fn place(of: &Shaded) -> (std::mem::Discriminant<Shape>, [[u32; 3]; 4]) {
 /// The records of a binary tree, and their depth.
 fn widen(binary: &Bvh2) -> (Vec<Record>, u32) {
     let mut records = vec![Record::Leaf(0)];
-    // Nodes of the binary tree: each with its record and the nodes above it.
+    // Nodes of the binary tree that are still to be visited: each with its record, and how many nodes are above it.
     let mut left = vec![(0, 0, 0)];
     let mut deepest = 0;
     while let Some((index, record, above)) = left.pop() {
@@ -145,12 +145,12 @@ fn children(binary: &Bvh2, index: usize) -> Vec<usize> {
 }
 
 impl Node {
-    /// Around these boxes, from one to four, whose records begin at `first`.
+    /// A node around one to four boxes, whose records begin at `first`.
     fn new(boxes: &[Bounds], first: usize) -> Self {
         let whole = boxes.iter().skip(1).fold(boxes[0], |whole, aabb| whole.union(aabb));
         let origin = Vec3::from(whole.min);
         let extent = Vec3::from(whole.max).as_dvec3() - origin.as_dvec3();
-        // The least steps that reach across.
+        // The smallest steps whose planes reach from one side to the other.
         let steps = (extent / f64::from(LAST_PLANE)).max(DVec3::splat(f32::MIN_POSITIVE.into()));
         let exponents = steps.to_array().map(|step| step.log2().ceil() as i32);
         let mut planes = [[[0; WIDTH]; 2]; 3];

@@ -68,8 +68,8 @@ impl Camera {
         Frame { world_from_camera: DMat3::from_cols(u, w.cross(u), w) }
     }
 
-    /// The same camera, with places of about seven digits, counted from its distance to what it looks at: more
-    /// cannot be seen, and would only be long to read.
+    /// The same camera with its coordinates rounded to a millionth of the distance to what it looks at. More digits make
+    /// no difference that can be seen, and would only be long to read.
     #[must_use]
     pub fn with_few_digits(&self) -> Self {
         let decimals = 6 - self.eye.distance(self.look_at).log10().floor() as i32;
@@ -81,8 +81,8 @@ impl Camera {
         Self { eye: rounded(self.eye), look_at: rounded(self.look_at), ..*self }
     }
 
-    /// The field of view in degrees: such that the same radians come of it again, to the bit, where they came
-    /// of degrees.
+    /// The field of view in degrees. Radians that were made from degrees come back bit for bit when the result is
+    /// converted again.
     pub fn vfov_degrees(&self) -> f64 {
         let degrees = self.vfov_radians.to_degrees();
         let near = [degrees, degrees.next_up(), degrees.next_down()];
@@ -94,7 +94,7 @@ impl Camera {
         0.5 * f64::from(height) / (0.5 * self.vfov_radians).tan()
     }
 
-    /// Why no frame can be made of it, if so.
+    /// The reason why these values give no frame, if there is one.
     pub fn fault(&self) -> Option<&'static str> {
         let axis = self.eye - self.look_at;
         if axis.length_squared() == 0.0 {

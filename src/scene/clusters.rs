@@ -12,22 +12,21 @@ use obvhs::bvh2::node::Bvh2Node;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::ploc::morton::morton_encode_u128_unorm;
 
-/// Neighbours on either side that a box looks at. In the first rounds, in which the boxes are many, it looks
-/// at one.
+/// How many neighbours on either side a box compares. In the first rounds, when there are many boxes, it compares one.
 const REACH: usize = 24;
 const SHORT_ROUNDS: usize = 2;
 
-/// A round in which fewer than one of so many boxes merges is replaced by one in which all do.
+/// If fewer than one box in so many would merge in a round, all boxes are merged with a neighbour instead.
 const LEAST_MERGES: usize = 16;
 
-/// Shares of the nodes that move, before and after.
+/// The shares of the nodes that are moved, in the first and in the last rounds.
 const MOVES: [f32; 2] = [0.2, 0.4];
 
-/// Where a point in the middle of a shape lies in more nodes than these, on average, nothing is gained by
-/// moving nodes, and it takes quadratic time.
+/// If the middle of a shape lies in more nodes than this, on average, moving nodes gains nothing and takes quadratic
+/// time.
 const MOST_CROWDED: usize = 500;
 
-/// Around those of the boxes that are listed, at least one, as [`along_curve`] orders them. The tree's
+/// The binary tree of the boxes with these indices, at least one, in the order that [`along_curve`] gives. The tree's
 /// primitives are indices of boxes.
 pub(super) fn tree(bounds: &[Bounds], order: &[u32]) -> Bvh2 {
     let mut tree = cluster(bounds, order);
@@ -52,7 +51,7 @@ fn cluster(bounds: &[Bounds], order: &[u32]) -> Bvh2 {
     })
 }
 
-/// Merges nodes until one is left: in each round those that are each other's partners.
+/// Merges nodes until one is left. Two nodes merge in a round if each is the other's partner.
 fn merge(bounds: &[Bounds], order: &[u32], partners: impl Fn(&[Bvh2Node], usize) -> Vec<usize>) -> Bvh2 {
     let mut tree = Bvh2::zeroed(order.len());
     tree.primitive_indices = order.to_vec();
@@ -87,7 +86,7 @@ pub(super) fn along_curve(bounds: &[Bounds]) -> Vec<(u128, u32)> {
     let (origin, extent) = (whole.min.as_dvec3(), whole.diagonal().as_dvec3());
     let place = |aabb: &Bounds| {
         let share = (aabb.center().as_dvec3() - origin) / extent;
-        // Nothing has a share of no extent.
+        // Along an axis on which all middles are the same, the share would be 0 / 0.
         morton_encode_u128_unorm(DVec3::select(share.is_nan_mask(), DVec3::ZERO, share))
     };
     let mut order: Vec<(u128, u32)> = bounds.iter().map(place).zip(0..).collect();
@@ -95,8 +94,8 @@ pub(super) fn along_curve(bounds: &[Bounds]) -> Vec<(u128, u32)> {
     order
 }
 
-/// For each node, which other one makes the smallest box with it, of so many on either side. Of equal ones
-/// the other of two is taken, and else the last: where boxes are equal, each has a partner.
+/// For each node its partner: the node, among so many on either side, that makes the smallest box with it. Among
+/// equally good ones the other node of its pair is taken, or else the last one. So equal boxes find partners too.
 fn partners(nodes: &[Bvh2Node], reach: usize) -> Vec<usize> {
     let mut best: Vec<(f32, usize)> = (0..nodes.len()).map(|index| (f32::INFINITY, index)).collect();
     let consider = |of: &mut (f32, usize), area: f32, index: usize, other: usize| {
@@ -114,12 +113,12 @@ fn partners(nodes: &[Bvh2Node], reach: usize) -> Vec<usize> {
     best.into_iter().map(|(_, partner)| partner).collect()
 }
 
-/// Pairs of neighbours. The last one may be left over.
+/// Makes each node the partner of its neighbour. The last node may be left over.
 fn adjacent(count: usize) -> Vec<usize> {
     (0..count).map(|index| if index ^ 1 < count { index ^ 1 } else { index }).collect()
 }
 
-/// In how many nodes the middle of a shape lies, on average over some.
+/// In how many nodes the middle of a shape lies, averaged over a sample of the shapes.
 fn crowding(tree: &Bvh2) -> usize {
     const SAMPLES: usize = 256;
     let step = tree.primitive_indices.len() / SAMPLES + 1;

@@ -1,16 +1,16 @@
-//! Normals for triangles without: smooth over what is nearly flat, and not over edges.
+//! Normals for triangles that have none: smooth where faces meet at a small angle, and with a crease at edges.
 
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
 
-/// An edge between faces whose normals differ by more stays an edge.
+/// The crease angle: faces whose normals differ by more meet in a visible edge.
 const CREASE_DEGREES: f32 = 40.0;
 
-/// Up to so many triangles are looked at one by one.
+/// Up to so many triangles around a position are compared one by one.
 const FEW: usize = 32;
 
-/// Unit normals for triangles without: at each corner the mean over the triangles around its
-/// position, by area, of those within the crease angle of this one.
+/// Unit normals for triangles that have none. The normal at a corner is the mean over the triangles that share its
+/// position and are within the crease angle, weighted by their areas.
 pub(super) fn crease_normals(triangles: &[[DVec3; 3]]) -> Vec<[Vec3; 3]> {
     let normals: Vec<Weighed> = triangles
         .iter()
@@ -58,11 +58,11 @@ pub(super) fn crease_normals(triangles: &[[DVec3; 3]]) -> Vec<[Vec3; 3]> {
     normals.iter().zip(vertex_of_corner.chunks_exact(3)).map(of_triangle).collect()
 }
 
-/// A number from 0 for each position, the same for equal ones: files repeat positions along seams.
+/// Numbers the positions from 0. Equal positions get the same number, for files repeat them along seams.
 fn merge(positions: &[DVec3]) -> Vec<u32> {
     let mut numbers = HashMap::with_capacity(positions.len() / 4);
     let number = |position: &DVec3| {
-        // -0 and 0 are one place.
+        // -0 and 0 are the same place.
         let key = (*position + DVec3::ZERO).to_array().map(f64::to_bits);
         let next = u32::try_from(numbers.len()).unwrap_or(u32::MAX);
         *numbers.entry(key).or_insert(next)
@@ -77,15 +77,15 @@ struct Weighed {
     area: f32,
 }
 
-/// The mean of normals by area, but for its length.
+/// A sum of normals weighted by area, which points as their mean does.
 fn sum<'a>(near: impl Iterator<Item = &'a Weighed>) -> Vec3 {
     near.map(|near| near.area * near.normal).sum()
 }
 
-/// Many normals, halved again and again, so that the sum of those near a direction takes no look at each.
+/// Many normals, halved again and again, so that those near a direction can be summed without comparing each.
 struct Tree {
     normals: Vec<Weighed>,
-    /// The sum and the box of the normals of each range that is met in halving, a range before its halves.
+    /// The sum and the box of the normals of each range of the halving. A range comes before its halves.
     ranges: Vec<Range>,
 }
 
@@ -121,15 +121,15 @@ impl Tree {
         }
     }
 
-    /// The sum over those whose cosine with a direction is at least so much.
+    /// The sum of the normals whose cosine with a direction is at least so much.
     fn sum(&self, direction: Vec3, least_cosine: f32) -> Vec3 {
         let positive = direction.cmpge(Vec3::ZERO);
         let mut total = Vec3::ZERO;
-        // Where each range of the tree starts, and ends, and its index.
+        // The ranges that are still to be visited: where each starts and ends, and its index.
         let mut left = vec![(0, self.normals.len(), 0)];
         while let Some((start, end, index)) = left.pop() {
             let range = &self.ranges[index];
-            // Rounded alike, the cosine of a normal in the box lies between those of two of its corners.
+            // All cosines are rounded alike, so that of a normal in the box lies between those of two of the box's corners.
             let nearest = Vec3::select(positive, range.upper, range.lower).dot(direction);
             let farthest = Vec3::select(positive, range.lower, range.upper).dot(direction);
             if farthest >= least_cosine {

@@ -9,7 +9,7 @@ use glam::{DQuat, DVec3, Vec3};
 use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 
-/// What a mesh is made of unless something else is said: a clay, with a faint gloss.
+/// The material of a mesh that has no other: clay, with a faint gloss.
 const CLAY: Material = Material {
     color: Vec3::new(0.75, 0.36, 0.2),
     checker: None,
@@ -24,7 +24,7 @@ const CLAY: Material = Material {
 /// A mesh in the coordinates of its file.
 pub(super) struct Mesh {
     file: String,
-    /// The files it was read from.
+    /// The files that it was read from.
     files: Vec<PathBuf>,
     obj: Obj,
     /// The diffuse colour of each of the file's materials, where it has one.
@@ -89,7 +89,7 @@ impl Mesh {
         }
     }
 
-    /// What is wrong with it as a whole.
+    /// An error about the mesh as a whole.
     pub(super) fn fault(&self, message: String) -> Error {
         Error::Mesh { file: self.file.clone(), message }
     }
@@ -102,7 +102,7 @@ impl Mesh {
         positions.fold(empty, |[lower, upper], position| [lower.min(position), upper.max(position)])
     }
 
-    /// Puts the mesh into a scene: in `material`, or else in the file's colours, or else in clay.
+    /// Adds the mesh to a scene: with `material` if there is one, or else with the file's colours, or else as clay.
     ///
     /// # Errors
     /// [`Error::Mesh`] if it is too large there, or nothing of it is left.
@@ -116,7 +116,7 @@ impl Mesh {
         let fail = |message: String| Err(self.fault(message));
         let positions: Vec<DVec3> =
             self.obj.positions.iter().map(|position| placement.apply(*position)).collect();
-        // Also false for a NaN.
+        // The comparison is false for a NaN too.
         let inside = |position: &DVec3| position.abs().max_element() <= f64::from(MAX_LENGTH);
         if !positions.iter().all(inside) {
             return fail(format!(
@@ -158,7 +158,7 @@ impl Mesh {
         Ok(())
     }
 
-    /// The unit normals of a face in the file, if it has three that can be used.
+    /// The unit normals that the file gives for a face's corners, if all three can be used.
     fn file_normals(&self, face: &Face, placement: &Placement) -> Option<[Vec3; 3]> {
         let unit = |normal: Option<NonZeroU32>| {
             let normal = self.obj.normals[normal?.get() as usize - 1].as_dvec3();
@@ -168,7 +168,7 @@ impl Mesh {
         Some([a?, b?, c?])
     }
 
-    /// Adds the materials that are needed, and gives the scene's index for the file's.
+    /// Adds the materials that are needed to the scene. For each of the file's materials, gives its index in the scene.
     fn add_materials(&self, scene: &mut Scene, material: Option<u32>) -> impl Fn(Option<u32>) -> u32 + use<> {
         let matte = |color| Material { color, ka: 1.0, kd: 1.0, ..Material::default() };
         let default = material.unwrap_or_else(|| scene.add_material("clay", CLAY));

@@ -1,4 +1,4 @@
-//! A lens in a photographer's units, and what its blur amounts to.
+//! A lens in a photographer's units, and how wide its blur is.
 //!
 //! The frame is 24 mm high and stands at `v = 12 mm / tan(vfov / 2)` behind the lens, where it stays
 //! whatever is in focus. [`Camera::metres_per_unit`] ties its millimetres to the scene's lengths. Circles
@@ -6,14 +6,14 @@
 
 use super::{Camera, Lens};
 
-/// Half the frame's height, in millimetres: of the 36 x 24 mm of 35 mm film.
+/// Half the height of the frame in millimetres: a frame of 35 mm film is 36 mm wide and 24 mm high.
 const HALF_FRAME_MM: f64 = 12.0;
 /// The frame's height, in millimetres.
 pub const FRAME_HEIGHT_MM: f64 = 2.0 * HALF_FRAME_MM;
 
 /// The vertical field of view, in radians, of a lens of this focal length that is focused at infinity.
 pub fn vfov_of_focal_length(millimetres: f64) -> f64 {
-    // By way of degrees, so that there are degrees that it comes of.
+    // Converted to degrees and back, so that `vfov_degrees` finds degrees that give exactly these radians.
     (2.0 * (HALF_FRAME_MM / millimetres).atan()).to_degrees().to_radians()
 }
 
@@ -66,7 +66,8 @@ impl Camera {
         [(focused + margin).recip(), if far > 0.0 { far } else { f64::INFINITY }]
     }
 
-    /// The focal distance from which on everything behind stays within `tolerance` pixels.
+    /// The hyperfocal distance: a lens that is focused there, or farther off, blurs nothing behind its focal plane by more
+    /// than `tolerance` pixels.
     pub fn hyperfocal_distance(&self, lens: &Lens, tolerance: f64, height: u32) -> f64 {
         f64::from(lens.diameter) * self.view_distance_pixels(height) / tolerance
     }

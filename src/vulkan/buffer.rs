@@ -14,7 +14,7 @@ pub enum Residence {
     Device,
     /// Where the host can read and write it.
     Host,
-    /// Likewise, and shaders cannot.
+    /// Where the host can read and write it, and shaders cannot: data passes through it on its way.
     Staging,
 }
 
@@ -36,7 +36,7 @@ impl Buffer {
     /// A buffer of at least `size` bytes, its contents undefined.
     ///
     /// # Errors
-    /// [`Error::Limit`] where the device has none as large, [`Error::Memory`], or what Vulkan says.
+    /// [`Error::Limit`] where the device has no buffers as large.
     pub fn new(device: &Arc<Device>, name: &'static str, size: u64, residence: Residence) -> Result<Self> {
         let mut usage = vk::BufferUsageFlags::empty();
         if residence != Residence::Staging {
@@ -57,7 +57,7 @@ impl Buffer {
         device.limits.check_buffer(name, size)?;
         let copies = vk::BufferUsageFlags::TRANSFER_SRC | vk::BufferUsageFlags::TRANSFER_DST;
         let info = vk::BufferCreateInfo::default().size(size).usage(usage | copies);
-        // SAFETY: the device is valid; the handle goes into its guard before anything else.
+        // SAFETY: the device is valid. The handle is owned by `buffer` before anything else can fail.
         let raw = check("creating a buffer", unsafe { device.raw.create_buffer(&info, None) })?;
         let mut buffer = Self { raw, allocation: None, device: Arc::clone(device) };
         // SAFETY: raw is a buffer of this device.
@@ -92,7 +92,7 @@ impl TexelBuffer {
     /// A buffer on the device of at least `size` bytes, in texels of 16, its contents undefined.
     ///
     /// # Errors
-    /// [`Error::Limit`] where it has more texels than the device can read, and [`Error::Memory`].
+    /// [`Error::Limit`] where it has more texels than the device can read.
     pub(super) fn new(device: &Arc<Device>, name: &'static str, size: u64) -> Result<Self> {
         device.limits.check_texels(name, size)?;
         let usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER;

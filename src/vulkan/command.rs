@@ -12,7 +12,7 @@ pub struct Commands {
     pool: vk::CommandPool,
     buffer: vk::CommandBuffer,
     fence: vk::Fence,
-    /// Whether the fence is, or will be, signalled by a submission.
+    /// Whether a submission has signalled the fence, or will.
     submitted: bool,
     device: Arc<Device>,
 }
@@ -24,9 +24,6 @@ pub struct Recording<'a> {
 
 impl Commands {
     /// An idle command buffer.
-    ///
-    /// # Errors
-    /// What Vulkan says.
     pub fn new(device: &Arc<Device>) -> Result<Self> {
         let mut commands = Self {
             pool: vk::CommandPool::null(),
@@ -39,7 +36,7 @@ impl Commands {
             .flags(vk::CommandPoolCreateFlags::RESET_COMMAND_BUFFER)
             .queue_family_index(device.queue_family);
         let fence = vk::FenceCreateInfo::default();
-        // SAFETY: the device is valid; each handle is in its guard before the next call.
+        // SAFETY: the device is valid. Each handle is owned by `commands` before the next call can fail.
         unsafe {
             commands.pool = check("creating a command pool", device.raw.create_command_pool(&pool, None))?;
             commands.fence = check("creating a fence", device.raw.create_fence(&fence, None))?;
@@ -53,15 +50,12 @@ impl Commands {
         Ok(commands)
     }
 
-    /// The pool it comes from, for imgui's renderer.
+    /// The pool that the command buffer comes from, for imgui's renderer.
     pub fn raw_pool(&self) -> vk::CommandPool {
         self.pool
     }
 
     /// Waits until what was submitted last is done.
-    ///
-    /// # Errors
-    /// What Vulkan says: a lost device.
     pub fn wait(&self) -> Result<()> {
         if !self.submitted {
             return Ok(());
@@ -72,13 +66,10 @@ impl Commands {
     }
 
     /// Waits, then starts recording anew.
-    ///
-    /// # Errors
-    /// What Vulkan says.
     pub fn begin(&mut self) -> Result<Recording<'_>> {
         self.wait()?;
         let info = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
-        // SAFETY: the buffer is not in use. It is reset by hand, for a recording may have been dropped
+        // SAFETY: the command buffer is not in use. It is reset first, for a recording may have been dropped
         // before it was submitted.
         let result = unsafe {
             let reset = vk::CommandBufferResetFlags::empty();
@@ -92,7 +83,7 @@ impl Commands {
 
 impl Drop for Commands {
     fn drop(&mut self) {
-        // A lost device is done as well.
+        // A device that is lost has ended its work too, so an error does not matter.
         let _ = self.wait();
         // SAFETY: the last submission is waited for; null handles are allowed.
         unsafe {
@@ -103,7 +94,7 @@ impl Drop for Commands {
 }
 
 impl Recording<'_> {
-    /// What is recorded into, for imgui's renderer.
+    /// The command buffer that is recorded, for imgui's renderer.
     pub fn raw(&self) -> vk::CommandBuffer {
         self.commands.buffer
     }
@@ -146,12 +137,12 @@ impl Recording<'_> {
         self.end_label();
     }
 
-    /// The boundary between two passes: everything that compute and transfer commands did before is
-    /// seen by those after it, and by the host once the fence is passed.
+    /// The boundary between two passes: compute and transfer commands after it see all that those before it wrote, and so
+    /// does the host once it has waited for the fence.
     pub fn barrier(&mut self) {
         let stages = vk::PipelineStageFlags2::COMPUTE_SHADER | vk::PipelineStageFlags2::ALL_TRANSFER;
         let writes = vk::AccessFlags2::SHADER_STORAGE_WRITE | vk::AccessFlags2::TRANSFER_WRITE;
-        // Texel buffers are read as samplers read.
+        // Reads of texel buffers count as sampled reads.
         let reads = vk::AccessFlags2::SHADER_STORAGE_READ
             | vk::AccessFlags2::SHADER_SAMPLED_READ
             | vk::AccessFlags2::TRANSFER_READ;
@@ -230,7 +221,7 @@ impl Recording<'_> {
         self.copy_rows(from, 0, from.extent()[1], to);
     }
 
-    /// Likewise, `count` rows of pixels from the row `first` on.
+    /// Copies `count` rows of an image's pixels, from the row `first` on, to the start of a buffer.
     pub fn copy_rows(&mut self, from: &Image, first: u32, count: u32, to: &Buffer) {
         let [width, height] = [from.extent()[0], count];
         let offset = vk::Offset3D { x: 0, y: i32::try_from(first).unwrap_or(i32::MAX), z: 0 };
@@ -252,8 +243,8 @@ impl Recording<'_> {
         self.barrier();
     }
 
-    /// Starts a timer. The barriers here and in [`Self::stop`] are what ties the timestamps to the
-    /// commands between them: no order is promised otherwise, and lavapipe writes both late.
+    /// Starts a timer. The barriers here and in [`Self::stop`] tie the timestamps to the commands between them: without
+    /// them Vulkan promises no order, and lavapipe writes both timestamps late.
     pub fn start(&mut self, timer: &Timer) {
         if self.device().timestamp_period > 0.0 {
             // SAFETY: recording is under way and the pool has two queries.
@@ -277,14 +268,11 @@ impl Recording<'_> {
     }
 
     /// Ends the recording and hands it to the device.
-    ///
-    /// # Errors
-    /// What Vulkan says.
     pub fn submit(self) -> Result<()> {
         self.submit_between(&[], &[])
     }
 
-    /// Likewise, after and before the given semaphores.
+    /// Ends the recording and hands it to the device, which waits for some semaphores before it and signals others after.
     pub(super) fn submit_between(
         self,
         wait: &[vk::SemaphoreSubmitInfo<'_>],

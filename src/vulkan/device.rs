@@ -34,7 +34,7 @@ impl Device {
     /// discrete before integrated before software.
     ///
     /// # Errors
-    /// [`Error::UnknownDevice`], [`Error::NoDevice`], or what Vulkan says.
+    /// [`Error::UnknownDevice`], [`Error::UnusableDevice`] or [`Error::NoDevice`].
     pub fn open(
         instance: &Arc<Instance>,
         wanted: Option<&str>,
@@ -43,10 +43,11 @@ impl Device {
         Self::open_as(instance, wanted, surface, None)
     }
 
-    /// Likewise, to be used in this way instead of its own: so a software device can run what else only a GPU runs.
+    /// Opens a device as [`Self::open`] does, but uses it in the way that `traits` say: a software device can run the code
+    /// that otherwise only a GPU runs.
     ///
     /// # Errors
-    /// Likewise.
+    /// As [`Self::open`].
     pub fn open_as(
         instance: &Arc<Instance>,
         wanted: Option<&str>,
@@ -128,9 +129,9 @@ impl Device {
         }))
     }
 
-    /// Keeps compiled pipelines in a file of this folder from one run to the next: what is there is
-    /// used from now on, and what is there at the end is written when the device goes. A file that cannot be
-    /// read or written is a line in the log and no failure.
+    /// Keeps compiled pipelines in a file of this folder from one run to the next. Those in the file are used from now on,
+    /// and all are written to it when the device is dropped. A file that cannot be read or written is a line in the log
+    /// and no failure.
     pub fn keep_pipelines_in(&self, folder: &Path) {
         self.cache.get_or_init(|| {
             // SAFETY: the device is of this instance.
@@ -139,7 +140,7 @@ impl Device {
         });
     }
 
-    /// Likewise, in the user's cache folder, if there is one.
+    /// Keeps compiled pipelines in the user's cache folder, if there is one: see [`Self::keep_pipelines_in`].
     pub fn keep_pipelines(&self) {
         if let Some(folder) = user_cache_folder() {
             self.keep_pipelines_in(&folder);
@@ -150,7 +151,7 @@ impl Device {
         self.cache.get().map_or_else(vk::PipelineCache::null, PipelineCache::raw)
     }
 
-    /// What device it is.
+    /// Its name, kind and driver.
     pub fn info(&self) -> &DeviceInfo {
         &self.info
     }
@@ -160,22 +161,18 @@ impl Device {
         &self.instance
     }
 
-    /// How it is used.
+    /// How the renderer uses it: as a GPU, or as a software device.
     pub fn traits(&self) -> Traits {
         self.traits
     }
 
     /// Waits until the device has nothing to do.
-    ///
-    /// # Errors
-    /// What Vulkan says: a lost device.
     pub fn wait_idle(&self) -> Result<()> {
         // SAFETY: the device is valid. Renderer and window use its queue from one thread.
         check("waiting for the device", unsafe { self.raw.device_wait_idle() })
     }
 
-    /// The raw handles, for imgui's renderer, which is written against them. It must be dropped
-    /// before the device.
+    /// The raw handles, which imgui's renderer takes. That renderer must be dropped before the device.
     pub fn raw_parts(&self) -> (ash::Device, vk::Queue, Arc<Mutex<Allocator>>) {
         (self.raw.clone(), self.queue, Arc::clone(&self.allocator))
     }

@@ -16,8 +16,8 @@ pub(super) const WHOLE: vk::ImageSubresourceRange = vk::ImageSubresourceRange {
     layer_count: 1,
 };
 
-/// A two-dimensional storage image with its memory and view. Before its first use it must be
-/// cleared with [`super::Recording::clear`], which also gives it its layout.
+/// A two-dimensional storage image with its memory and view. It must be cleared before its first use, with
+/// [`super::Recording::clear`], which also gives it its layout.
 pub struct Image {
     pub(super) raw: vk::Image,
     pub(super) view: vk::ImageView,
@@ -28,26 +28,26 @@ pub struct Image {
 }
 
 impl Image {
-    /// Four f32 a pixel.
+    /// An image of four f32 a pixel.
     ///
     /// # Errors
-    /// [`crate::error::Error::Memory`], or what Vulkan says.
+    /// [`Error::Limit`](crate::error::Error::Limit) where the device has no images as wide or high.
     pub fn rgba32f(device: &Arc<Device>, name: &'static str, extent: [u32; 2]) -> Result<Self> {
         Self::new(device, name, extent, vk::Format::R32G32B32A32_SFLOAT, 16)
     }
 
-    /// A float a pixel.
+    /// An image of one f32 a pixel.
     ///
     /// # Errors
-    /// [`crate::error::Error::Memory`], or what Vulkan says.
+    /// [`Error::Limit`](crate::error::Error::Limit) where the device has no images as wide or high.
     pub fn r32f(device: &Arc<Device>, name: &'static str, extent: [u32; 2]) -> Result<Self> {
         Self::new(device, name, extent, vk::Format::R32_SFLOAT, 4)
     }
 
-    /// Four bytes a pixel, without an encoding of their own.
+    /// An image of four bytes a pixel. What they encode is up to the shaders: the format converts nothing.
     ///
     /// # Errors
-    /// [`crate::error::Error::Memory`], or what Vulkan says.
+    /// [`Error::Limit`](crate::error::Error::Limit) where the device has no images as wide or high.
     pub fn rgba8(device: &Arc<Device>, name: &'static str, extent: [u32; 2]) -> Result<Self> {
         Self::new(device, name, extent, vk::Format::R8G8B8A8_UNORM, 4)
     }
@@ -74,7 +74,7 @@ impl Image {
                     | vk::ImageUsageFlags::TRANSFER_SRC
                     | vk::ImageUsageFlags::TRANSFER_DST,
             );
-        // SAFETY: the device is valid; the handle goes into its guard before anything else.
+        // SAFETY: the device is valid. The handle is owned by `image` before anything else can fail.
         let raw = check("creating an image", unsafe { device.raw.create_image(&info, None) })?;
         let mut image = Self {
             raw,

@@ -19,12 +19,12 @@ pub struct Instance {
 }
 
 impl Instance {
-    /// Loads Vulkan. With a display, its surfaces can be made; with `validation`, the Khronos layer
+    /// Loads Vulkan. With a display, surfaces of its windows can be made. With `validation`, the Khronos validation layer
     /// is on, with synchronization checks where it has them.
     ///
     /// # Errors
-    /// [`Error::NoLoader`], [`Error::NoValidationLayer`], [`Error::NoDevice`], [`Error::Window`] where no
-    /// driver draws to such a display, or what Vulkan says.
+    /// [`Error::NoLoader`], [`Error::NoValidationLayer`], [`Error::NoDevice`], or [`Error::Window`] where no
+    /// driver draws to such a display.
     pub fn new(validation: bool, display: Option<RawDisplayHandle>) -> Result<Arc<Self>> {
         // SAFETY: loading the system's Vulkan loader, whose initializers are trusted.
         let entry = unsafe { ash::Entry::load() }.map_err(|error| Error::NoLoader(error.to_string()))?;
@@ -113,7 +113,7 @@ impl Instance {
             watches_synchronization: !watch.is_empty(),
             messages,
         };
-        // Only now is it known that there is a driver at all.
+        // Tested only now, for a system without any driver has an error of its own.
         if !missing.is_empty() {
             return Err(Error::Window(format!(
                 "no Vulkan driver here can draw to such a window ({} is missing)",
@@ -141,7 +141,7 @@ impl Instance {
         self.messages.list()
     }
 
-    /// Whether the layer kept silent. It speaks until the device is gone, so that is when to ask.
+    /// Fails if the validation layer had anything to say. It may speak until the device is dropped, so ask after that.
     ///
     /// # Errors
     /// [`Error::Validation`].
@@ -167,7 +167,7 @@ impl Drop for Instance {
     }
 }
 
-/// What the loader and the drivers offer, or what a layer does.
+/// The extensions that the loader and the drivers offer, or those that a layer offers.
 fn extensions(entry: &ash::Entry, layer: Option<&CStr>) -> Result<Vec<CString>> {
     // SAFETY: a query without preconditions.
     let properties = unsafe { entry.enumerate_instance_extension_properties(layer) };

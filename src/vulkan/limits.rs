@@ -1,19 +1,19 @@
-//! What a device can hold and how it wants to be used. Whatever is made on a device is checked here first, for
-//! beyond its limits Vulkan promises nothing: specification of Vulkan 1.3, chapter "Limits".
+//! The limits of a device, and how it is best used. Every buffer and image is checked here before it is made, for
+//! beyond the limits Vulkan promises nothing: specification of Vulkan 1.3, chapter "Limits".
 
 use super::ResourceKind;
 use crate::error::{Error, Result};
 use ash::vk;
 
-/// How many of each kind of resource the shaders bind at most.
+/// How many resources of each kind a shader binds, at most.
 pub const NEEDED: [(ResourceKind, u32); 3] =
     [(ResourceKind::Buffer, 6), (ResourceKind::Image, 4), (ResourceKind::Texels, 5)];
 
-/// Lavapipe silently leaves every loop of an invocation once it has gone round this often, all loops
-/// counted together. A sample that goes round more often would be wrong.
+/// Lavapipe counts the steps of all loops of an invocation together, and silently leaves every loop after so many. A
+/// sample that takes more steps would be wrong.
 const SOFTWARE_LOOP_STEPS: u64 = 65_535;
 
-/// How a device wants to be used.
+/// How a device is best used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Traits {
     /// Whether an invocation copies a small scene to variables before it starts. A software device loads from a
@@ -26,15 +26,15 @@ pub struct Traits {
 }
 
 impl Traits {
-    /// Of a device that runs on the CPU. In a tree of a million triangles a ray takes some dozens of steps; with no
-    /// limit to them, there would be none to how often the loops go round.
+    /// The traits of a device that runs on the CPU. A ray takes some dozens of steps in a tree of a million triangles.
+    /// Without a limit to them, no number of samples would be safe from the limit of loop steps.
     pub const SOFTWARE: Self =
         Self { keeps_scene: true, max_loop_steps: Some(SOFTWARE_LOOP_STEPS), max_tree_steps: Some(1024) };
-    /// Of a GPU.
+    /// The traits of a GPU.
     pub const GPU: Self = Self { keeps_scene: false, max_loop_steps: None, max_tree_steps: None };
 }
 
-/// What a device can hold.
+/// How large the parts can be that a device holds.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Limits {
     image_extent: u32,

@@ -1,9 +1,13 @@
 //! Vulkan through `ash`: the only unsafe code of the crate, and no knowledge of scenes.
 //!
-//! Ownership goes from child to parent by `Arc` (`Instance <- Device <- Buffer, Image, ...`), so a
-//! handle is never destroyed after what it came from. Every call into the driver goes through
-//! `check`, which says what was tried. What a recording uses is held by whoever records, until
-//! the commands are done; the renderer and the window do so by waiting before they replace it.
+//! A child holds its parent by `Arc` (`Instance <- Device <- Buffer, Image, ...`), so a handle is never destroyed
+//! after what it was made from. Commands do not hold the buffers, images and pipelines that they use: whoever records
+//! commands keeps those until the device has run them. The renderer and the window wait for the device before they
+//! replace one.
+//!
+//! # Errors
+//! Every `Result` of this module can be [`Error::Vulkan`], which names the call that failed and Vulkan's answer (a lost
+//! device, for example), or [`Error::Memory`]. Functions say only which other errors they give.
 #![allow(unsafe_code, reason = "this module wraps the driver's C interface")]
 
 mod buffer;
@@ -40,23 +44,23 @@ use crate::error::{Error, Result};
 use ash::vk;
 use std::sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
 
-/// The loader's lists of instances, drivers and devices, which all threads share. To name an object the loader
-/// walks through all of them, those of other instances too, and does so without a lock of its own (seen in
-/// 1.4.309): meanwhile no other thread may make or unmake any.
+/// Guards the loader's lists of instances, drivers and devices, which all threads share. To name an object, the loader
+/// walks through all of them, those of other instances too, without a lock of its own (seen in 1.4.309). Meanwhile no
+/// other thread may create or destroy an instance or a device.
 static LOADER: RwLock<()> = RwLock::new(());
 
-/// While something is looked up in the loader's lists.
+/// Held while something is looked up in the loader's lists.
 fn loader_stays() -> RwLockReadGuard<'static, ()> {
     LOADER.read().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// While the loader's lists change: around making and unmaking instances and devices, and around listing the
+/// Held while the loader's lists change: around creating and destroying instances and devices, and around listing the
 /// devices, which unloads drivers that have none.
 fn loader_changes() -> RwLockWriteGuard<'static, ()> {
     LOADER.write().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Names what failed.
+/// Turns Vulkan's answer into an error that names what was tried.
 fn check<T>(what: &'static str, result: Result<T, vk::Result>) -> Result<T> {
     result.map_err(|result| match result {
         vk::Result::ERROR_OUT_OF_DEVICE_MEMORY | vk::Result::ERROR_OUT_OF_HOST_MEMORY => {

@@ -12,7 +12,7 @@ pub(super) const SOFTWARE: &str = "software";
 /// A device of the system, usable or not.
 #[derive(Debug, Clone)]
 pub struct DeviceInfo {
-    /// What `--device` takes.
+    /// The number by which `--device` chooses it.
     pub index: usize,
     /// The device's own name.
     pub name: String,
@@ -22,7 +22,7 @@ pub struct DeviceInfo {
     pub driver: String,
     /// Its UUID, where another device has the same name.
     pub uuid: Option<String>,
-    /// Why the renderer cannot use it, if so.
+    /// The reason why the renderer cannot use it, if there is one.
     pub unusable: Option<String>,
     rank: u8,
     pub(super) raw: vk::PhysicalDevice,
@@ -31,9 +31,6 @@ pub struct DeviceInfo {
 
 impl Instance {
     /// The system's devices. With a surface, those that cannot present to it are unusable.
-    ///
-    /// # Errors
-    /// What Vulkan says.
     pub fn devices(&self, surface: Option<&Surface>) -> Result<Vec<DeviceInfo>> {
         // SAFETY: the instance is valid.
         let devices = unsafe {
@@ -114,7 +111,7 @@ impl Instance {
     fn queue_family(&self, raw: vk::PhysicalDevice, surface: Option<&Surface>) -> Result<Option<u32>> {
         // SAFETY: raw is a device of this instance.
         let families = unsafe { self.raw.get_physical_device_queue_family_properties(raw) };
-        // Drawing is for the window's panel alone.
+        // Only the window's panel is drawn; all else is computed.
         let graphics = if surface.is_some() { vk::QueueFlags::GRAPHICS } else { vk::QueueFlags::empty() };
         let wanted = vk::QueueFlags::COMPUTE | graphics;
         for (family, properties) in (0..).zip(&families) {
@@ -127,7 +124,7 @@ impl Instance {
     }
 }
 
-/// A device's UUID tells it apart from others of its name, and is of no use elsewhere.
+/// Removes the UUIDs of devices that their name tells apart already.
 fn keep_needed_uuids(devices: &mut [DeviceInfo]) {
     let names: Vec<_> = devices.iter().map(|device| device.name.clone()).collect();
     let alone = |device: &DeviceInfo| names.iter().filter(|name| **name == device.name).count() == 1;
@@ -150,7 +147,7 @@ pub(super) fn choose<'a>(devices: &'a [DeviceInfo], wanted: Option<&str>) -> Res
     let named = |device: &&DeviceInfo| !wanted.is_empty() && device.name.to_lowercase().contains(&lowercase);
     let device = match wanted.parse::<usize>() {
         Ok(index) => devices.get(index),
-        // Of devices of one name, a usable one.
+        // Where several devices have the name, one that can be used.
         Err(_) => devices.iter().filter(named).min_by_key(|device| device.unusable.is_some()),
     };
     let device = device.ok_or_else(|| {

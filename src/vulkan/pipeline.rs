@@ -61,18 +61,15 @@ impl Shader {
         words.map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]])).collect()
     }
 
-    /// What it binds and how it is laid out.
+    /// Its bindings, constants and struct layouts, read from the SPIR-V.
     pub fn interface(&self) -> ShaderInterface {
         ShaderInterface::of(&self.words())
     }
 }
 
 impl ComputePipeline {
-    /// A pipeline of the shader, with the values of its specialization constants by their ids. Those that the
-    /// shader does not have are left out: what describes a scene serves shaders that look at a part of it.
-    ///
-    /// # Errors
-    /// What Vulkan says.
+    /// A pipeline of the shader, with the values of its specialization constants by their ids. Constants that the shader
+    /// does not have are left out, so that all shaders of a scene can be given the same ones.
     ///
     /// # Panics
     /// Where one of the shader's constants has no value: that is a bug.
@@ -106,7 +103,7 @@ impl ComputePipeline {
             })
             .collect();
         let set = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
-        // SAFETY: the device is valid; the handle goes into its guard.
+        // SAFETY: the device is valid, and `self` owns the handle.
         let layout = unsafe { self.device.raw.create_descriptor_set_layout(&set, None) };
         self.set_layout = check("creating a descriptor set layout", layout)?;
 
@@ -118,7 +115,7 @@ impl ComputePipeline {
         if self.interface.push_size > 0 {
             layout = layout.push_constant_ranges(&pushes);
         }
-        // SAFETY: the set layout is of this device; the handle goes into its guard.
+        // SAFETY: the set layout is of this device, and `self` owns the handle.
         let layout = unsafe { self.device.raw.create_pipeline_layout(&layout, None) };
         self.layout = check("creating a pipeline layout", layout)?;
 
@@ -184,9 +181,6 @@ impl Drop for ComputePipeline {
 
 impl BindingSet {
     /// Binds `resources`, each at its binding number. There must be one for each of the shader's.
-    ///
-    /// # Errors
-    /// What Vulkan says.
     pub fn new(pipeline: &ComputePipeline, resources: &[(u32, Binding)]) -> Result<Self> {
         let device = &pipeline.device;
         for (binding, resource) in resources {

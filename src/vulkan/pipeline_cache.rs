@@ -1,8 +1,8 @@
 //! Compiled pipelines on disk, so that the next start need not compile them.
 //!
-//! A driver gets back only what it wrote itself: drivers trust the bytes after the header, and some
-//! crash on others. So a file holds a checksum before the driver's data, and the data's header, which
-//! Vulkan specifies (`VkPipelineCacheHeaderVersionOne`), must name this device.
+//! Drivers trust the bytes after the header, and some crash on bytes that they did not write. So a file begins with a
+//! checksum of the driver's data, and the header of that data, which Vulkan specifies
+//! (`VkPipelineCacheHeaderVersionOne`), must name this device.
 
 use crate::error::Result;
 use crate::pending_file::PendingFile;
@@ -10,25 +10,26 @@ use ash::vk;
 use etcetera::BaseStrategy;
 use std::path::{Path, PathBuf};
 
-/// Every scene adds its own pipelines, and a driver lets none go: a file larger than this starts anew.
+/// Every scene adds its own pipelines, and drivers never remove one, so a file that is larger than this is started
+/// anew.
 const MOST_BYTES: usize = 64 << 20;
-/// Starts every file, ahead of the checksum and the driver's data.
+/// The first bytes of every file. The checksum and the driver's data follow.
 const MAGIC: [u8; 8] = *b"thinlpc1";
-/// Magic and checksum.
+/// Bytes of magic and checksum.
 const ENVELOPE: usize = 16;
-/// Of the driver's data: its own length, version, vendor, device and UUID.
+/// Bytes of the header of the driver's data: its length, version, vendor, device and UUID.
 const HEADER: usize = 32;
 
 /// The cache that all pipelines of a device share.
 pub(super) struct PipelineCache {
     raw: vk::PipelineCache,
     path: PathBuf,
-    /// What the file holds, as far as it is of use.
+    /// The driver's data that the file had, or nothing where it was of no use.
     loaded: Vec<u8>,
 }
 
-/// Where programs of this system keep what they can make again, if the user has such a folder:
-/// `XDG_CACHE_HOME` or `~/.cache`, `~/Library/Caches`, `%LOCALAPPDATA%`.
+/// The user's folder for files that programs can make again, if there is one: `XDG_CACHE_HOME` or `~/.cache`,
+/// `~/Library/Caches`, `%LOCALAPPDATA%`.
 pub(super) fn user_cache_folder() -> Option<PathBuf> {
     let folders = etcetera::base_strategy::choose_native_strategy().ok()?;
     Some(folders.cache_dir().join("thinlens"))
@@ -57,7 +58,7 @@ impl PipelineCache {
             // SAFETY: the device is valid; the data is empty or what this driver gave before.
             unsafe { device.create_pipeline_cache(&info, None) }
         };
-        // Pipelines are compiled without a cache as well, so its failure is none.
+        // Pipelines can be compiled without a cache, so a failure here is only a line in the log.
         let (raw, loaded) = match create(&loaded) {
             Ok(raw) => (raw, loaded),
             Err(error) => {
@@ -92,14 +93,14 @@ impl PipelineCache {
         }
     }
 
-    /// Goes, before its device.
+    /// Destroys the cache, which must happen before its device is destroyed.
     pub(super) fn destroy(self, device: &ash::Device) {
         // SAFETY: the cache is of this device and nothing uses it any more; null is allowed.
         unsafe { device.destroy_pipeline_cache(self.raw, None) };
     }
 }
 
-/// A file for each device and driver: one of another would be of no use, and would be overwritten.
+/// The name of the file for a device and its driver. Each has a file of its own, for none can use another's.
 fn file_name(properties: &vk::PhysicalDeviceProperties) -> String {
     let uuid = properties.pipeline_cache_uuid.map(|byte| format!("{byte:02x}")).concat();
     format!(
@@ -133,13 +134,13 @@ fn open<'a>(bytes: &'a [u8], properties: &vk::PhysicalDeviceProperties) -> Resul
 
 fn write(path: &Path, data: &[u8]) -> Result<()> {
     if let Some(folder) = path.parent() {
-        // What keeps the folder from being made keeps the file from being written, and says so there.
+        // Where the folder cannot be made, writing the file fails below, with an error that says why.
         let _ = std::fs::create_dir_all(folder);
     }
     PendingFile::create(path)?.write(&[&MAGIC[..], &checksum(data).to_le_bytes(), data].concat())
 }
 
-/// FNV-1a: G. Fowler, L. C. Noll, K.-P. Vo. Against damage, not against malice.
+/// FNV-1a, by G. Fowler, L. C. Noll and K.-P. Vo. It finds damage, not malice.
 fn checksum(data: &[u8]) -> u64 {
     data.iter()
         .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))

@@ -15,16 +15,16 @@ pub struct Surface {
     _window: Arc<Window>,
 }
 
-/// What is done with the images: pictures are copied to them, and the panel is drawn on top.
+/// How the window's images are used: pictures are copied to them, and the panel is drawn on top.
 pub(super) const USAGE: vk::ImageUsageFlags = vk::ImageUsageFlags::from_raw(
     vk::ImageUsageFlags::TRANSFER_DST.as_raw() | vk::ImageUsageFlags::COLOR_ATTACHMENT.as_raw(),
 );
 
 impl Surface {
-    /// The surface of a window, which it keeps.
+    /// The surface of a window, which stays open as long as the surface.
     ///
     /// # Errors
-    /// What Vulkan or the window says.
+    /// [`Error::Window`] where the window system gives no handles.
     pub fn new(instance: &Arc<Instance>, window: &Arc<Window>) -> Result<Arc<Self>> {
         let handles = || Ok((window.display_handle()?.as_raw(), window.window_handle()?.as_raw()));
         let (display, handle) = handles().map_err(|error: HandleError| Error::Window(error.to_string()))?;
@@ -61,7 +61,7 @@ impl Surface {
         Ok((capabilities, check("asking which formats the window takes", formats)?))
     }
 
-    /// What the window lacks that every frame of this device needs, if anything.
+    /// The reason why this device cannot show frames in the window, if there is one.
     pub(super) fn why_unusable(&self, device: vk::PhysicalDevice) -> Result<Option<&'static str>> {
         let (capabilities, formats) = self.takes(device)?;
         Ok(why_unusable(&capabilities, &formats))
@@ -83,7 +83,7 @@ pub(super) fn format(offered: &[vk::SurfaceFormatKHR]) -> Option<&vk::SurfaceFor
     offered.iter().find(|offered| known.contains(&offered.format))
 }
 
-/// What a window lacks that every frame needs.
+/// The reason why frames cannot be shown in a window, if there is one.
 fn why_unusable(
     capabilities: &vk::SurfaceCapabilitiesKHR,
     formats: &[vk::SurfaceFormatKHR],

@@ -29,13 +29,13 @@ pub struct Swapchain {
 /// How many frames the host may be ahead of the device.
 pub const FRAMES_IN_FLIGHT: usize = 2;
 
-/// What asking for the next image gave. Neither a stale swapchain nor a hidden window is an error.
+/// The answer to asking for the next image. Neither a stale swapchain nor a hidden window is an error.
 pub enum Acquired {
     /// An image to draw to.
     Image(AcquiredImage),
     /// The window has changed: make another swapchain.
     Stale,
-    /// None is free yet, as when the window is hidden: try again later.
+    /// No image is free yet, as when the window is hidden: try again later.
     NotReady,
 }
 
@@ -53,7 +53,7 @@ impl Swapchain {
     /// minimised.
     ///
     /// # Errors
-    /// What Vulkan says, or [`Error::Window`] where the window takes no 8-bit picture.
+    /// [`Error::Window`] where the window takes no 8-bit picture.
     pub fn new(device: &Arc<Device>, surface: &Arc<Surface>, size: [u32; 2]) -> Result<Option<Self>> {
         let (capabilities, formats) = surface.takes(device.physical)?;
         let extent = extent(&capabilities, size);
@@ -78,7 +78,7 @@ impl Swapchain {
             .present_mode(vk::PresentModeKHR::FIFO)
             .clipped(true);
         let loader = khr::swapchain::Device::new(&device.instance.raw, &device.raw);
-        // SAFETY: info follows the surface's capabilities; the handle goes into its guard.
+        // SAFETY: info follows the surface's capabilities, and `swapchain` below owns the handle.
         let raw = check("creating the swapchain", unsafe { loader.create_swapchain(&info, None) })?;
         let mut swapchain = Self {
             raw,
@@ -100,7 +100,7 @@ impl Swapchain {
     fn create_parts(&mut self) -> Result<()> {
         let semaphore = vk::SemaphoreCreateInfo::default();
         let device = Arc::clone(&self.device);
-        // SAFETY: the swapchain is valid; each handle goes into its guard as it is made.
+        // SAFETY: the swapchain is valid, and `self` owns each handle as soon as it is made.
         unsafe {
             self.images =
                 check("listing the swapchain's images", self.loader.get_swapchain_images(self.raw))?;
@@ -132,9 +132,6 @@ impl Swapchain {
     }
 
     /// Waits for the next image to draw to.
-    ///
-    /// # Errors
-    /// What Vulkan says.
     pub fn acquire(&mut self) -> Result<Acquired> {
         let acquired = self.acquired[self.next_acquire];
         let timeout = u64::try_from(ACQUIRE_TIMEOUT.as_nanos()).unwrap_or(u64::MAX);
@@ -193,7 +190,8 @@ impl Swapchain {
                 .dst_offset(offset)
                 .extent(vk::Extent3D { width: to - from, height, depth: 1 })];
             let general = vk::ImageLayout::GENERAL;
-            // Bytes as they are: a blit would convert them, which takes a software device as long as tracing.
+            // A copy leaves the bytes as they are. A blit would convert them, which takes a software device as long as
+            // tracing does.
             // SAFETY: both images are in these layouts, hold the area, and have four bytes a pixel.
             unsafe { recording.device().raw.cmd_copy_image(buffer, picture.raw, general, raw, dst, &region) };
         };
@@ -218,9 +216,6 @@ impl Swapchain {
     }
 
     /// Ends the drawing, submits, and presents. False when the swapchain has become stale.
-    ///
-    /// # Errors
-    /// What Vulkan says.
     pub fn present(&mut self, mut recording: Recording<'_>, image: &AcquiredImage) -> Result<bool> {
         let raw = self.images[image.index as usize];
         // SAFETY: `begin_drawing` began it.

@@ -1,4 +1,4 @@
-//! How long the device worked, by its own clock.
+//! Timers by the device's own clock.
 
 use super::{Device, check};
 use crate::error::Result;
@@ -14,9 +14,6 @@ pub struct Timer {
 
 impl Timer {
     /// A timer that has measured nothing.
-    ///
-    /// # Errors
-    /// What Vulkan says.
     pub fn new(device: &Arc<Device>) -> Result<Self> {
         let info = vk::QueryPoolCreateInfo::default().query_type(vk::QueryType::TIMESTAMP).query_count(2);
         // SAFETY: the device is valid.
@@ -26,9 +23,6 @@ impl Timer {
 
     /// The time between start and stop, once the commands around them are done. None where the
     /// queue has no clock.
-    ///
-    /// # Errors
-    /// What Vulkan says: a lost device.
     pub fn elapsed(&self) -> Result<Option<Duration>> {
         if self.device.timestamp_period == 0.0 {
             return Ok(None);

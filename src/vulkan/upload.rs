@@ -8,7 +8,7 @@ impl Buffer {
     /// A buffer on the device that holds `data`.
     ///
     /// # Errors
-    /// Those of [`Buffer::new`] and of a submission.
+    /// [`Error::Limit`](crate::error::Error::Limit) where the device has no buffers as large.
     pub fn upload<T: bytemuck::NoUninit>(
         device: &Arc<Device>,
         name: &'static str,
@@ -24,8 +24,7 @@ impl TexelBuffer {
     /// A buffer on the device that holds `data`, in texels of 16 bytes.
     ///
     /// # Errors
-    /// [`Error::Limit`](crate::error::Error::Limit) where it has more texels than the device can read, and those of
-    /// [`Buffer::upload`].
+    /// [`Error::Limit`](crate::error::Error::Limit) where it has more texels than the device can read.
     pub fn upload<T: bytemuck::NoUninit>(
         device: &Arc<Device>,
         name: &'static str,

@@ -1,4 +1,4 @@
-//! The Khronos validation layer, with synchronization checks, and what it says.
+//! The Khronos validation layer: asking for synchronization checks, and collecting its messages.
 
 use ash::{ext, vk};
 use std::borrow::Cow;
@@ -8,24 +8,25 @@ use std::sync::{Mutex, PoisonError};
 pub(super) const LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
 
 /// The layer's extensions by which it is asked to watch synchronization: hazards between commands, on top of its usual
-/// checks. Layers have the one, the other, or both; where there are both, an earlier layer may know less by the first.
+/// checks. A layer has the one, the other, or both. Where it has both, both are used, for an older layer may not know
+/// all settings of the first.
 const WATCHES: [&CStr; 2] = [ext::layer_settings::NAME, ext::validation_features::NAME];
 
-/// Those of [`WATCHES`] among a layer's extensions. With none, it cannot be asked.
+/// Those of [`WATCHES`] that a layer has. A layer that has none cannot watch synchronization.
 pub(super) fn watches(extensions: &[CString]) -> Vec<&'static CStr> {
     WATCHES.into_iter().filter(|name| extensions.iter().any(|offered| offered.as_c_str() == *name)).collect()
 }
 
-/// For `VK_EXT_validation_features`.
+/// What is asked for by `VK_EXT_validation_features`.
 pub(super) const FEATURES: [vk::ValidationFeatureEnableEXT; 1] =
     [vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
 
-/// For `VK_EXT_layer_settings`. Layers from 1.3.290 on have a setting of its own for what shaders access through
-/// descriptors, which is off by default: without it, no hazard between two dispatches is seen.
+/// What is asked for by `VK_EXT_layer_settings`. Layers from 1.3.290 on watch what shaders access through descriptors only
+/// if a setting of its own is on: without it, no hazard between two dispatches is seen.
 const SETTINGS: [&CStr; 3] =
     [c"validate_sync", c"syncval_shader_accesses_heuristic", c"syncval_submit_time_validation"];
 
-/// All of [`SETTINGS`], on.
+/// The [`SETTINGS`], each switched on.
 pub(super) fn settings() -> [vk::LayerSettingEXT<'static>; SETTINGS.len()] {
     const ON: &vk::Bool32 = &vk::TRUE;
     SETTINGS.map(|name| vk::LayerSettingEXT {
@@ -83,8 +84,7 @@ unsafe extern "system" fn receive(
     vk::FALSE
 }
 
-/// A message with its id, by which the rule is found that was broken. Older layers write it into the message
-/// themselves.
+/// A message with its id, which names the rule that was broken. Older layers write the id into the message themselves.
 fn text_of(id: &str, message: &str) -> String {
     if message.contains(id) { message.to_owned() } else { format!("{id}: {message}") }
 }

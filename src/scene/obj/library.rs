@@ -5,10 +5,10 @@ use super::text::{self, Foreign, keyword, length_of, lines, name, readings, word
 use glam::{Mat3, Vec3};
 use std::collections::HashMap;
 
-/// What is shown for a picture, which is not read.
+/// The grey that stands for a texture image: those are not read.
 const GREY: Vec3 = Vec3::splat(0.5);
 
-/// A colour that is none, under a picture.
+/// Black is no colour where a texture image should be: files leave such a material black.
 const BLACK: f32 = 1e-3;
 
 /// From CIE XYZ to linear sRGB, by columns (IEC 61966-2-1).
@@ -18,11 +18,11 @@ const LINEAR_OF_XYZ: Mat3 = Mat3::from_cols(
     Vec3::new(-0.4986, 0.0415, 1.0570),
 );
 
-/// A material's colour, as far as it is read.
+/// What is read of a material.
 #[derive(Clone, Copy, Default)]
 pub(in super::super) struct Paint {
     diffuse: Option<Vec3>,
-    /// Whether a picture has the colour.
+    /// Whether a texture image gives the colour.
     pub(in super::super) pictured: bool,
 }
 
@@ -30,15 +30,15 @@ pub(in super::super) struct Paint {
 #[derive(Default)]
 pub(in super::super) struct Library {
     materials: HashMap<Vec<u8>, Paint>,
-    /// Their names without what may be comments; none where that fits two.
+    /// The index by a name without what may be a comment, or none where two names become the same.
     short_names: HashMap<Vec<u8>, Option<Vec<u8>>>,
-    /// Colours that cannot be read, and what is wrong with the first of them.
+    /// How many colours cannot be read, and what is wrong with the first.
     pub(in super::super) faults: Tally,
     pub(in super::super) fault: String,
 }
 
 impl Paint {
-    /// The diffuse colour. A picture is shown in grey, for files leave its material black.
+    /// The diffuse colour. A material with a texture image is grey, for files leave its colour black.
     pub(in super::super) fn color(&self) -> Option<Vec3> {
         match self.diffuse {
             Some(color) if !self.pictured || color.max_element() > BLACK => Some(color),
@@ -47,14 +47,14 @@ impl Paint {
     }
 }
 
-/// Reads MTL text in any encoding. What cannot be read is passed over, and noted.
+/// Reads MTL text in any encoding. Colours that cannot be read are passed over and counted.
 pub(in super::super) fn parse_library(bytes: &[u8]) -> Result<Library, Foreign> {
     let text = text::decode(bytes)?;
     let mut library = Library::default();
     let mut current: Option<&mut Paint> = None;
     for (number, line) in lines(&text) {
         let (keyword, rest) = keyword(&line);
-        // No two keywords differ in the case of their letters alone, and not all programs keep it.
+        // Programs write keywords in any case of letters, and no two keywords differ by it alone.
         match &*keyword.to_ascii_lowercase() {
             b"newmtl" => current = Some(library.materials.entry(name(rest).to_vec()).or_default()),
             b"kd" => match color(rest) {
@@ -100,7 +100,7 @@ fn color(rest: &[u8]) -> Result<Vec3, String> {
 }
 
 impl Library {
-    /// Takes in the materials of another one, which prevail.
+    /// Adds the materials of another library. Where both have a name, the other one's material is used.
     pub(in super::super) fn extend(&mut self, other: Self) {
         for name in other.materials.keys() {
             for short in readings(name).skip(1) {
@@ -113,7 +113,7 @@ impl Library {
         self.materials.extend(other.materials);
     }
 
-    /// The material of this name: as it is written, or else without comments behind either name.
+    /// The material of this name as it is written, or else one that is the same but for a comment behind either name.
     pub(in super::super) fn find(&self, name: &[u8]) -> Option<Paint> {
         let whole = || readings(name).find_map(|reading| self.materials.get(reading));
         let short = || readings(name).find_map(|reading| self.short_names.get(reading)?.as_ref());

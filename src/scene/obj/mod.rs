@@ -1,7 +1,7 @@
 //! Reads Wavefront OBJ text: positions, normals, faces and the names of materials (Wavefront, *Object
 //! Files*, appendix B1 of the Advanced Visualizer manual), and the MTL texts beside it. Curves, points,
-//! lines, groups and texture coordinates are passed over. No library: those at hand read lines as UTF-8,
-//! do not name a wrong line, and do not continue one, so that little but the loop would be theirs.
+//! lines, groups and texture coordinates are passed over. No library is used: those at hand take every line for UTF-8,
+//! do not say which line is wrong, and do not join lines that end in a backslash.
 
 mod library;
 mod polygon;
@@ -18,20 +18,20 @@ use std::collections::{HashMap, HashSet};
 use std::num::NonZeroU32;
 use text::{keyword, lines, name, number_of, three, words};
 
-/// What a file holds, with every index inside its list.
+/// The contents of a file. Every index is within its list.
 #[derive(Default)]
 pub(super) struct Obj {
     pub(super) positions: Vec<DVec3>,
-    /// Of length one, or zero where the file has none that can be used.
+    /// The normals: each of length one, or zero where the file's cannot be used.
     pub(super) normals: Vec<Vec3>,
     pub(super) faces: Vec<Face>,
     /// Names that `usemtl` gave, which faces name by index.
     pub(super) materials: Vec<Vec<u8>>,
-    /// What follows `mtllib`, each once.
+    /// The texts that follow `mtllib`, each once.
     pub(super) libraries: Vec<Vec<u8>>,
-    /// Normals that have no direction: numbers are missing, none, or all zero.
+    /// Normals without a direction: numbers are missing, are no numbers, or are all zero.
     pub(super) unusable_normals: Tally,
-    /// Faces of fewer than three corners, which are left out.
+    /// Faces with fewer than three corners, which are left out.
     pub(super) short_faces: Tally,
     /// Polygons whose edges cross, so that their triangles are a guess.
     pub(super) crossed_faces: Tally,
@@ -53,7 +53,7 @@ pub(super) struct Corner {
     pub(super) normal: Option<NonZeroU32>,
 }
 
-/// How often something was met, and in which line first.
+/// How often something occurs, and the first line where it does.
 #[derive(Default)]
 pub(super) struct Tally {
     pub(super) count: usize,
@@ -61,7 +61,7 @@ pub(super) struct Tally {
 }
 
 impl Tally {
-    /// Whether it is the first.
+    /// Whether this occurrence is the first.
     fn note(&mut self, line: usize) -> bool {
         if self.count == 0 {
             self.line = line;
@@ -73,14 +73,14 @@ impl Tally {
 
 /// What is wrong with a file.
 pub(super) enum ObjFault {
-    /// In which line, from 1.
+    /// A line is wrong: its number, from 1.
     Line(usize, String),
-    /// It is none.
+    /// The file is no OBJ text.
     Foreign(Foreign),
 }
 
-/// The largest index met, where, and as written there: an index may name what comes later, so that
-/// only the end of the file tells whether it is right.
+/// The largest index so far, where it stands, and how it is written there. An index may name something that comes later
+/// in the file, so only its end tells whether the index is right.
 #[derive(Default)]
 struct Largest {
     end: usize,
@@ -149,7 +149,7 @@ impl Reader {
     fn normal(&mut self, number: usize, rest: &[u8]) {
         let mut numbers = words(rest).map(|word| number_of::<f64>(word).unwrap_or(f64::NAN));
         let normal = DVec3::from_array([0; 3].map(|_| numbers.next().unwrap_or(f64::NAN)));
-        // Squares of the largest and the smallest numbers are none.
+        // The squares of the largest numbers are infinite, and those of the smallest are zero.
         let unit = (normal / normal.abs().max_element()).try_normalize();
         match unit.filter(|_| normal.is_finite()) {
             Some(unit) => self.obj.normals.push(unit.as_vec3()),
@@ -216,7 +216,8 @@ impl Reader {
 }
 
 impl Largest {
-    /// The index from 0 of what is written from 1, or from -1 backwards. `count` are there so far.
+    /// The index, counted from 0, of an item that is written as counted from 1, or backwards from -1. There are `count`
+    /// items so far.
     fn note(&mut self, line: usize, written: &[u8], count: usize) -> Option<u32> {
         let written = number_of::<i64>(written)?;
         let from_one = if written < 0 { i64::try_from(count).ok()? + 1 + written } else { written };

@@ -8,31 +8,31 @@ use glam::DVec3;
 pub(super) struct Polygon {
     /// The first of its triangles.
     pub(super) first: u32,
-    /// How many they are, and two less than its corners.
+    /// How many triangles there are: two less than the polygon has corners.
     pub(super) triangles: u32,
-    /// Where it is written.
+    /// The line where it stands.
     pub(super) line: usize,
 }
 
-/// Shares of a polygon's area that rounding may make.
+/// Differences of areas up to this share of the polygon's area may come from rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// How often a polygon may come by each of its positions, on average. One with holes comes by twice where a
-/// line leads to them.
+/// How often a polygon may visit each of its positions, on average. A polygon with a hole visits those twice where a line
+/// leads to the hole.
 const MOST_VISITS: usize = 3;
 
-/// Cutting takes up to quadratic time.
+/// The most corners of a polygon that is cut: cutting takes up to quadratic time.
 const MOST_CORNERS: usize = 1 << 17;
 
-/// Cuts those polygons anew whose fans reach out of them, and gives the number of those that cannot be cut
-/// right, for their edges cross. Each polygon keeps its number of triangles; some may have no area.
+/// Cuts polygons anew whose fans reach out of them. Gives the number of polygons that have no right cut, because their
+/// edges cross. Each polygon keeps its number of triangles, some of which may have no area.
 pub(super) fn cut(polygons: &[Polygon], positions: &[DVec3], faces: &mut [Face]) -> Tally {
     let mut crossed = Tally::default();
     let mut cutter = Cutter::default();
     let mut across: Vec<DVec3> = Vec::new();
     for polygon in polygons {
         let fan = &mut faces[polygon.first as usize..][..polygon.triangles as usize];
-        // A fan's triangles are its first corner, and two neighbours each.
+        // A triangle of a fan has the fan's first corner and two neighbours.
         let corner = |index: usize| match index {
             0 | 1 => fan[0].corners[index],
             _ => fan[index - 2].corners[2],
@@ -40,7 +40,7 @@ pub(super) fn cut(polygons: &[Polygon], positions: &[DVec3], faces: &mut [Face])
         let ring = || (0..fan.len() + 2).map(corner);
         let place = |corner: Corner| positions[corner.position as usize];
         let first = place(corner(0));
-        // The normals of the triangles, as long as twice their areas.
+        // The normals of the triangles. Each is as long as twice the triangle's area.
         across.clear();
         across.extend(fan.iter().map(|triangle| {
             let [_, b, c] = triangle.corners.map(|corner| place(corner) - first);
@@ -73,7 +73,7 @@ pub(super) fn cut(polygons: &[Polygon], positions: &[DVec3], faces: &mut [Face])
     crossed
 }
 
-/// After how many corners a polygon begins again, that goes round many times.
+/// The number of corners after which a polygon repeats itself, if it goes round many times.
 fn period(corners: &[Corner]) -> usize {
     let count = corners.len();
     let same = |a: &[Corner], b: &[Corner]| a.iter().map(|of| of.position).eq(b.iter().map(|of| of.position));
@@ -83,7 +83,7 @@ fn period(corners: &[Corner]) -> usize {
     (3..=count / 2).find(repeats).unwrap_or(count)
 }
 
-/// Whether it is no polygon, but a line to and fro, which takes long to cut and has no right cut.
+/// Whether the corners form a line to and fro and no polygon. Such a line takes long to cut, and has no right cut.
 fn is_tangled(corners: &[Corner]) -> bool {
     let mut positions: Vec<u32> = corners.iter().map(|corner| corner.position).collect();
     positions.sort_unstable();
@@ -100,10 +100,10 @@ struct Cutter {
 }
 
 impl Cutter {
-    /// Fills `triangles` with indices of `corners`, wound as they are. Whether they cover what the polygon
-    /// covers: where its edges cross, nothing does.
+    /// Fills `triangles` with indices of `corners`, wound as the polygon is. Gives whether the triangles cover exactly what
+    /// the polygon covers, which is impossible where its edges cross.
     fn cut(&mut self, place: impl Fn(Corner) -> DVec3, normal: DVec3) -> bool {
-        // Seen along the axis that the normal is nearest to, a flat polygon keeps its shape up to a stretch.
+        // Projected along the axis that is nearest to its normal, a flat polygon is only stretched.
         let size = normal.abs();
         let [u, v] = if size.x >= size.max_element() {
             [1, 2]

@@ -62,8 +62,8 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// A file by its name: as it is written; else with backslashes as separators and in any case of letters;
-    /// else by its last part beside the mesh.
+    /// Finds a file by its name as it is written, or else with backslashes as separators and in any case of letters, or
+    /// else by its last part in the mesh's folder.
     fn find(&mut self, name: &[u8]) -> Option<PathBuf> {
         let quoted = name.strip_prefix(b"\"").and_then(|name| name.strip_suffix(b"\""));
         let name = quoted.unwrap_or(name);
@@ -99,7 +99,7 @@ impl Search<'_> {
                 .flatten()
                 .map(|entry| entry.file_name())
                 .collect();
-            // Of names that differ in case alone, the same one is taken on every computer.
+            // Where names differ only in case, every computer must choose the same one.
             names.sort_unstable_by(|a, b| b.cmp(a));
             names.into_iter().map(|name| (lower(name.as_encoded_bytes()), name)).collect()
         });
@@ -115,7 +115,7 @@ fn lower(name: &[u8]) -> Vec<u8> {
     }
 }
 
-/// A file's name from its bytes. Where names are no bytes, those that are no UTF-8 are not found.
+/// A file's name from its bytes. On systems where names are not bytes, a name that is no UTF-8 is not found.
 fn os_str(name: &[u8]) -> Cow<'_, Path> {
     #[cfg(unix)]
     return Cow::Borrowed(Path::new(<OsStr as std::os::unix::ffi::OsStrExt>::from_bytes(name)));

@@ -8,7 +8,7 @@ use memchr::{memchr, memchr2};
 use std::borrow::Cow;
 use std::str::FromStr;
 
-/// A file that is no OBJ or MTL text: what it is, and what to do, in words that follow "it is".
+/// Says what a file is that is no OBJ or MTL text, and what to do, in words that follow "it is".
 #[derive(Debug)]
 pub(in super::super) struct Foreign(pub(in super::super) &'static str);
 
@@ -21,7 +21,7 @@ const FOREIGN: [(&[u8], &str); 2] = [
 /// How much of a file is looked at to tell what it is.
 const SAMPLE: usize = 4096;
 
-/// First words of lines. A line that begins with one is no continuation of the line above.
+/// The keywords of both formats. A line that begins with one does not continue the line above.
 const KEYWORDS: [&[u8]; 57] = [
     b"v",
     b"vt",
@@ -216,7 +216,7 @@ pub(super) fn name(rest: &[u8]) -> &[u8] {
 /// A name as it is written, and then without what may be comments behind it, the longest first. There may
 /// be a `#` in a name, so only a look at where it is used tells.
 pub(super) fn readings(name: &[u8]) -> impl Iterator<Item = &[u8]> {
-    /// More are in no file but one made to take long.
+    /// No file has names with more of them, unless it was made to take long.
     const MOST: usize = 8;
     let is_comment = |at: &usize| name[*at] == b'#' && is_space(&name[at - 1]);
     let cuts = (1..name.len()).rev().filter(is_comment).map(|at| self::name(&name[..at]));
