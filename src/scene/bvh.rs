@@ -74,8 +74,8 @@ impl Bvh {
 /// The box around a shape wherever it is during the exposure, wider by what f32 may lose of a point on it.
 fn bounds(of: &Shaded, shutter: f32) -> Bounds {
     let [lower, upper] = of.shape.bounds().expect("only bounded shapes are in a tree");
-    let way = 0.5 * shutter * of.velocity.abs();
-    let (lower, upper) = (lower.as_vec3() - way, upper.as_vec3() + way);
+    let reach = 0.5 * shutter * of.velocity.abs();
+    let (lower, upper) = (lower.as_vec3() - reach, upper.as_vec3() + reach);
     let margin = Vec3::splat(1e-6 * lower.abs().max(upper.abs()).max_element());
     Bounds::new(Vec3A::from(lower - margin), Vec3A::from(upper + margin))
 }

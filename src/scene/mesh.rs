@@ -1,7 +1,7 @@
 //! Triangle meshes from OBJ files.
 
 use super::crease::crease_normals;
-use super::obj::{self, Face, Foreign, Library, Obj, ObjFault, Paint};
+use super::obj::{self, Face, Foreign, Library, Obj, ObjError, Paint};
 use super::{MAX_LENGTH, Material, Scene, Shaded, Triangle};
 use crate::error::{Error, Result};
 use crate::input_file;
@@ -59,9 +59,9 @@ impl Mesh {
     pub(super) fn read(path: &Path) -> Result<Self> {
         let file = path.display().to_string();
         let text = input_file::read(path, input_file::MOST_BYTES)?;
-        let obj = obj::parse(&text).map_err(|fault| match fault {
-            ObjFault::Line(line, message) => Error::Scene { file: file.clone(), line, message },
-            ObjFault::Foreign(Foreign(what)) => {
+        let obj = obj::parse(&text).map_err(|error| match error {
+            ObjError::Line(line, message) => Error::Scene { file: file.clone(), line, message },
+            ObjError::Foreign(Foreign(what)) => {
                 Error::Mesh { file: file.clone(), message: format!("this is no OBJ file, it is {what}") }
             }
         })?;
@@ -90,7 +90,7 @@ impl Mesh {
     }
 
     /// An error about the mesh as a whole.
-    pub(super) fn fault(&self, message: String) -> Error {
+    pub(super) fn error(&self, message: String) -> Error {
         Error::Mesh { file: self.file.clone(), message }
     }
 
@@ -113,7 +113,7 @@ impl Mesh {
         material: Option<u32>,
         velocity: Vec3,
     ) -> Result<()> {
-        let fail = |message: String| Err(self.fault(message));
+        let fail = |message: String| Err(self.error(message));
         let positions: Vec<DVec3> =
             self.obj.positions.iter().map(|position| placement.apply(*position)).collect();
         // The comparison is false for a NaN too.

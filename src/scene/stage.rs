@@ -67,7 +67,7 @@ impl Ground {
                 "it is {diagonal:.1e} across, but must be from {low:e} to {high:e}; put it into a scene file with \
                  a scale"
             );
-            return Err(mesh.fault(message));
+            return Err(mesh.error(message));
         }
         // In the middle of a layer of the ground's checker, no rounding changes its colours.
         let square = SQUARE * diagonal;

@@ -72,7 +72,7 @@ impl Tally {
 }
 
 /// What is wrong with a file.
-pub(super) enum ObjFault {
+pub(super) enum ObjError {
     /// A line is wrong: its number, from 1.
     Line(usize, String),
     /// The file is no OBJ text.
@@ -102,14 +102,14 @@ struct Reader {
 }
 
 /// Reads OBJ text in any encoding.
-pub(super) fn parse(bytes: &[u8]) -> Result<Obj, ObjFault> {
-    let text = text::decode(bytes).map_err(ObjFault::Foreign)?;
+pub(super) fn parse(bytes: &[u8]) -> Result<Obj, ObjError> {
+    let text = text::decode(bytes).map_err(ObjError::Foreign)?;
     let mut reader = Reader::default();
     for (number, line) in lines(&text) {
-        reader.read(number, &line).map_err(|message| ObjFault::Line(number, message))?;
+        reader.read(number, &line).map_err(|message| ObjError::Line(number, message))?;
     }
     if !reader.is_obj {
-        return Err(ObjFault::Foreign(Foreign("text without a line of OBJ; export the mesh as OBJ")));
+        return Err(ObjError::Foreign(Foreign("text without a line of OBJ; export the mesh as OBJ")));
     }
     let Reader { mut obj, largest_position, largest_normal, polygons, .. } = reader;
     for (largest, count, what) in [
@@ -119,7 +119,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Obj, ObjFault> {
         if largest.end > count {
             let message =
                 format!("the face names number {} of the {count} {what}; is the file whole?", largest.end);
-            return Err(ObjFault::Line(largest.line, message));
+            return Err(ObjError::Line(largest.line, message));
         }
     }
     obj.crossed_faces = polygon::cut(&polygons, &obj.positions, &mut obj.faces);
