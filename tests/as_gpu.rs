@@ -8,8 +8,8 @@ mod adaptive;
 mod agreement;
 #[path = "film.rs"]
 mod film;
-#[path = "mesh.rs"]
-mod mesh;
+#[path = "mesh_picture.rs"]
+mod mesh_picture;
 #[path = "motion.rs"]
 mod motion;
 #[path = "surfaces.rs"]

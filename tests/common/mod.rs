@@ -1,6 +1,7 @@
 //! What the tests share: a device that validation watches, small settings, and the program itself.
 #![allow(dead_code, reason = "each test file uses a part")]
 
+pub mod mesh;
 pub mod probe;
 pub mod scenes;
 pub mod statistics;
