@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Makes the pictures of README and docs anew, but for those of the viewer: runs the commands that stand under the
-# pictures of docs/optics.md, and those below. Needs ImageMagick. Look at what `git diff --stat docs/images` lists.
+# Makes the pictures of README and docs anew: drives the viewer, runs the commands that stand under the pictures of
+# docs/optics.md, and those below. Needs ImageMagick, Xvfb and xdotool. Look at what `git diff --stat docs/images` lists.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 command -v montage >/dev/null || { echo "install ImageMagick: apt-get install imagemagick" >&2; exit 1; }
 cargo build --release
 PATH=$PWD/target/release:$PATH
+scripts/viewer-pictures.sh
 
 # The blocks of commands that write a picture. The drawing is cut out of a picture of the viewer.
 commands=$(awk '
