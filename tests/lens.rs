@@ -10,7 +10,7 @@ use glam::{DVec2, DVec3, Vec3};
 use thinlens::gpu_types::Camera;
 use thinlens::scene::Preset;
 use thinlens::scene::{CameraModel, Hole};
-use thinlens::settings::{Called, Estimator, Value, setting};
+use thinlens::settings::{Called, Estimator, Value, list};
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
@@ -318,7 +318,7 @@ fn lenses_have_the_f_numbers_and_fields_of_view_they_are_named_for() {
     // 12 mm / tan(18.5 degrees) = 35.864 mm, half of which in units of 0.1 m.
     assert!((f64::from(estimator.lens.diameter) - 0.179_32).abs() < 1e-5, "{}", estimator.lens.diameter);
     for bad in [0.0, -2.0, f64::NAN, f64::INFINITY] {
-        setting("f-number").check(&Value::Double(bad), Called::Flag).expect_err("no f-number");
+        list::setting("f-number").check(&Value::Double(bad), Called::Flag).expect_err("no f-number");
     }
 }
 

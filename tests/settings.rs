@@ -4,13 +4,9 @@ mod common;
 
 use common::run;
 use std::path::Path;
+use thinlens::output;
 use thinlens::scene::{self, SceneRef};
-use thinlens::settings::{Access, Called, Changes, Role, SETTINGS, Setting, Settings, Value};
-
-/// Those that have a value of their own.
-fn own() -> impl Iterator<Item = &'static Setting> {
-    SETTINGS.iter().filter(|setting| !setting.is_alias())
-}
+use thinlens::settings::{Access, Called, Changes, Role, Setting, Settings, Value, Widget, list};
 
 fn plain() -> Settings {
     Settings::of_scene(SceneRef::new(scene::load("version-4").expect("a built-in scene")))
@@ -46,8 +42,11 @@ fn another(setting: &Setting, now: &Value, folder: &Path) -> Value {
         (Access::Switch(_), Value::Switch(now)) => Value::Switch(!now),
         (Access::Vector(..), Value::Vector(now)) => Value::Vector(*now / 3.0 + 0.1),
         (Access::Size(..), Value::Size([width, height])) => Value::Size([width + 1, height + 2]),
-        (Access::Choice { names, .. }, Value::Name(now)) => {
-            Value::Name(names().into_iter().rev().find(|name| name != now).expect("another name"))
+        // The last one of the known lenses that has a field of view, and the last one of others.
+        (Access::Choice(_, choices), Value::Name(now)) => {
+            let mut names: Vec<&str> = choices().iter().map(|choice| choice.name).collect();
+            names.sort_by_key(|name| name.starts_with("50mm"));
+            Value::Name(names.into_iter().rev().find(|name| name != now).expect("another name"))
         }
         (Access::Image(_), Value::File(None)) => Value::File(Some(image(folder))),
         (_, now) => panic!("--{} is {now:?}", setting.flag),
@@ -71,13 +70,13 @@ fn out_of_range(setting: &Setting) -> Vec<String> {
             vec![format!("0,{},1", low * 2.0), format!("1,0,{}", high * 2.0), "NaN,0,0".into()]
         }
         Access::Size(_, [low, high]) => vec![format!("{}x9", low - 1), format!("9x{}", high + 1)],
-        Access::Switch(_) | Access::Choice { .. } | Access::Image(_) => Vec::new(),
+        Access::Switch(_) | Access::Choice(..) | Access::Image(_) => Vec::new(),
     }
 }
 
 /// The flags of the settings in which two differ.
 fn difference(a: &Settings, b: &Settings) -> Vec<&'static str> {
-    own().filter(|setting| setting.get(a) != setting.get(b)).map(|setting| setting.flag).collect()
+    list::own().filter(|setting| setting.get(a) != setting.get(b)).map(|setting| setting.flag).collect()
 }
 
 /// Catches a setting whose value is read from one place and written to another, that pictures do not carry, that
@@ -86,15 +85,9 @@ fn difference(a: &Settings, b: &Settings) -> Vec<&'static str> {
 fn each_setting_changes_what_it_says_and_is_carried_by_pictures() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let plain = plain();
-    for setting in SETTINGS {
+    for setting in list::all() {
         let (flag, mut settings) = (setting.flag, plain.clone());
-        let value = match &setting.access {
-            Access::Choice { names, .. } if setting.is_alias() => {
-                // A lens that changes the field of view too.
-                Value::Name(names()[names().len() / 2])
-            }
-            _ => another(setting, &setting.get(&plain), folder.path()),
-        };
+        let value = another(setting, &setting.get(&plain), folder.path());
         Changes::of(flag, value.clone()).apply(&mut settings).expect("a value that it may have");
         let changed = difference(&settings, &plain);
         match setting.role {
@@ -122,7 +115,7 @@ fn each_setting_changes_what_it_says_and_is_carried_by_pictures() {
 fn a_value_out_of_range_is_refused_by_the_name_that_the_user_gave() {
     let plain = plain();
     let mut refused = 0;
-    for setting in SETTINGS {
+    for setting in list::all() {
         for word in out_of_range(setting) {
             let value = setting.parse(&word).expect("a number");
             let error = Changes::of(setting.flag, value).apply(&mut plain.clone()).expect_err(setting.flag);
@@ -147,7 +140,7 @@ fn each_setting_has_an_option_and_those_that_do_nothing_are_not_shown() {
         help.iter().any(|word| word.split('[').next() == Some(&format!("--{}", setting.flag)))
     };
     let [render, save, verify] = ["render", "save", "verify"].map(help);
-    for setting in SETTINGS {
+    for setting in list::all() {
         assert!(shown(&render, setting), "--{}", setting.flag);
         assert_eq!(shown(&save, setting), setting.key.is_some(), "save --{}", setting.flag);
         let shows = setting.role == Role::View || setting.flag == "noise-threshold";
@@ -161,17 +154,169 @@ fn each_setting_has_an_option_and_those_that_do_nothing_are_not_shown() {
 /// Catches two settings of one name, and choices that do not come back by their names.
 #[test]
 fn names_are_names_of_one_thing() {
-    for (index, setting) in SETTINGS.iter().enumerate() {
-        let before = &SETTINGS[..index];
-        assert!(before.iter().all(|other| other.flag != setting.flag), "--{}", setting.flag);
-        let same_key = |other: &&Setting| setting.key.is_some() && other.key == setting.key;
-        assert!(!before.iter().any(|other| same_key(&other)), "{}", setting.name(Called::Key));
-        if let (Access::Choice { names, .. }, false) = (&setting.access, setting.is_alias()) {
-            for name in names() {
+    for (index, setting) in list::all().enumerate() {
+        for called in [Called::Flag, Called::Key, Called::Label] {
+            let name = setting.name(called);
+            assert!(list::all().take(index).all(|other| other.name(called) != name), "{name}");
+        }
+        if let (Access::Choice(_, choices), false) = (&setting.access, setting.is_alias()) {
+            for choice in choices() {
                 let mut settings = plain();
-                setting.set(&mut settings, &Value::Name(name)).expect("a choice");
-                assert_eq!(setting.get(&settings), Value::Name(name), "--{}", setting.flag);
+                setting.set(&mut settings, &Value::Name(choice.name)).expect("a choice");
+                assert_eq!(setting.get(&settings), Value::Name(choice.name), "--{}", setting.flag);
             }
         }
+    }
+}
+
+/// Catches a setting that a saved scene lacks or has under another key, one that says how a scene is sampled and gets
+/// into its file, and one that is lost, or kept, when another scene is opened.
+#[test]
+fn each_setting_of_a_scene_is_saved_and_the_others_stay() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (plain, file) = (plain(), folder.path().join("saved.toml"));
+    let text_of = |settings: &Settings| {
+        output::save_scene(settings, &file).expect("a saved scene");
+        std::fs::read_to_string(&file).expect("text")
+    };
+    let unchanged = text_of(&plain);
+    for setting in list::own() {
+        let (flag, mut settings) = (setting.flag, plain.clone());
+        let value = another(setting, &setting.get(&plain), folder.path());
+        setting.set(&mut settings, &value).expect("a value that it may have");
+        let text = text_of(&settings);
+        let again = Settings::of_scene(SceneRef::new(scene::load(&file).expect("a scene")));
+        let stays = plain.with_scene(again.estimator.scene.clone());
+        let kept = settings.with_scene(plain.estimator.scene.clone());
+        if let Some(key) = &setting.key {
+            // The brightness stays though the shutter or the film is another one.
+            let lost: Vec<&str> =
+                difference(&again, &settings).into_iter().filter(|flag| *flag != "exposure").collect();
+            assert_eq!(lost, Vec::<&str>::new(), "--{flag} is lost");
+            assert!(text.contains(&format!("{} = ", key.name)), "{} is not written", key.name);
+            let of_picture = ["size", "overlay", "tolerance"].contains(&flag);
+            assert_eq!(difference(&kept, &plain).contains(&flag), of_picture, "--{flag} in another scene");
+            let of_window = ["size", "tolerance"].contains(&flag);
+            assert_eq!(difference(&stays, &plain).contains(&flag), !of_window, "--{flag} of the scene");
+        } else {
+            assert_eq!(text, unchanged, "--{flag} says how a scene is sampled, and is saved");
+            assert_eq!(difference(&kept, &settings), Vec::<&str>::new(), "--{flag} in another scene");
+        }
+    }
+}
+
+/// Catches a row whose widget does not fit what the setting is, so that it does nothing, and a slider that goes where
+/// the setting may not be.
+#[test]
+fn each_row_fits_its_setting() {
+    let plain = plain();
+    for setting in list::all() {
+        let Some(row) = &setting.row else { continue };
+        let within = |[low, high]: [f64; 2]| match &row.widget {
+            Widget::Slider(slider) => {
+                let [first, last] = (slider.range)(&plain).map(f64::from);
+                let format = (slider.format)(first as f32);
+                assert!(first < last, "{}: {first} to {last}", row.label);
+                // A range in f64 is met as nearly as f32 can.
+                assert!(first >= low * (1.0 - 1e-6) && last <= high * (1.0 + 1e-6), "{}", row.label);
+                assert!(format.contains('%') || format == "off", "{}: {format}", row.label);
+                true
+            }
+            Widget::BoxOf { ticked, plain } => {
+                [ticked, plain].into_iter().all(|number| (low..=high).contains(&f64::from(*number)))
+            }
+            Widget::Drag => matches!(setting.access, Access::Vector(..)),
+            Widget::Box | Widget::List => false,
+        };
+        let fits = match &setting.access {
+            Access::Single(_, range) | Access::Seconds(_, range) => within(range.map(f64::from)),
+            Access::Double(_, range) | Access::Vector(_, range) => within(*range),
+            Access::Whole(_, range) | Access::WholeOrZero(_, range, _) => within(range.map(f64::from)),
+            Access::Switch(_) => matches!(row.widget, Widget::Box),
+            Access::Choice(..) => matches!(row.widget, Widget::List),
+            Access::Size(..) | Access::Image(_) => false,
+        };
+        assert!(fits, "{}", row.label);
+    }
+}
+
+/// What the documentation says of all settings, group by group.
+fn tables() -> String {
+    let mut text = String::new();
+    for group in &list::GROUPS {
+        text += &format!(
+            "\n## {}\n\n| option | meaning | unless it is given | range | in a scene file | in the viewer |\n",
+            group.title
+        );
+        text += "|---|---|---|---|---|---|\n";
+        for setting in group.settings {
+            let letter = setting.letter.map_or_else(String::new, |letter| format!("`-{letter}`, "));
+            let (names, range) = match &setting.access {
+                Access::Choice(_, choices) => (
+                    choices()
+                        .iter()
+                        .map(|choice| format!("`{}`", choice.name))
+                        .collect::<Vec<_>>()
+                        .join(", "),
+                    String::new(),
+                ),
+                Access::Single(_, range) | Access::Seconds(_, range) => (String::new(), span(*range)),
+                Access::Double(_, range) | Access::Vector(_, range) => (String::new(), span(*range)),
+                Access::Whole(_, range) | Access::Size(_, range) => (String::new(), span(*range)),
+                Access::WholeOrZero(_, range, _) => (String::new(), format!("0, {}", span(*range))),
+                Access::Switch(_) | Access::Image(_) => (String::new(), String::new()),
+            };
+            let value = if setting.value_name.is_empty() { "NAME" } else { setting.value_name };
+            let option = match setting.access {
+                Access::Switch(_) => format!("`--{}[=false]`", setting.flag),
+                _ => format!("{letter}`--{} {value}`", setting.flag),
+            };
+            let key = setting.key.as_ref().map_or_else(String::new, |key| match key.table {
+                "" => format!("`{}`", key.name),
+                table => format!("`{}` in `[{table}]`", key.name),
+            });
+            let label = setting.row.as_ref().map_or("", |row| row.label);
+            let range = [names, range].concat();
+            text += &format!(
+                "| {option} | {} | {} | {range} | {key} | {label} |\n",
+                setting.help, setting.default
+            );
+        }
+    }
+    text
+}
+
+/// A range in few digits.
+fn span<T: std::fmt::Display + std::fmt::LowerExp>(range: [T; 2]) -> String {
+    let [low, high] = range.map(|end| {
+        let (plain, power) = (end.to_string(), format!("{end:e}"));
+        if plain.len() > 6 && power.len() < plain.len() { power } else { plain }
+    });
+    format!("{low} to {high}")
+}
+
+/// Catches a page of options that is not what the list says. `THINLENS_BLESS=1` writes it.
+#[test]
+fn the_page_of_options_is_what_the_list_says() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/options.md");
+    let page = std::fs::read_to_string(path).expect("the page");
+    let (begin, end) = ("<!-- from the list of settings -->\n", "\n<!-- end of the list -->\n");
+    let (before, rest) = page.split_once(begin).expect("where the tables begin");
+    let (tables_there, after) = rest.split_once(end).expect("where the tables end");
+    if std::env::var_os("THINLENS_BLESS").is_some() {
+        std::fs::write(path, [before, begin, &tables(), end, after].concat()).expect("a writable page");
+    } else {
+        let list = tables();
+        let differs = tables_there.lines().zip(list.lines()).find(|(page, list)| page != list);
+        assert!(
+            tables_there == list,
+            "docs/options.md differs at {differs:?}; THINLENS_BLESS=1 cargo test --release --test settings writes it"
+        );
+    }
+    let scenes =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/scenes.md")).expect("the page");
+    for key in list::all().filter_map(|setting| setting.key.as_ref()) {
+        let named = [format!("`{}`", key.name), format!("{} = ", key.name)];
+        assert!(named.iter().any(|name| scenes.contains(name)), "docs/scenes.md does not know {}", key.name);
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::scene::{self, BUILTINS, SceneRef};
-use crate::settings::{Changes, DEFAULT_SAMPLES, Role, SETTINGS, Setting, Settings, Value};
+use crate::settings::{Changes, DEFAULT_SAMPLES, Role, Setting, Settings, Value, list};
 use clap::{Arg, Args};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -114,7 +114,7 @@ pub(super) fn for_verifying(option: Arg) -> Arg {
 
 /// Leaves the option of such a setting out of a command's help.
 fn hide(option: Arg, such: impl Fn(&Setting) -> bool) -> Arg {
-    let setting = SETTINGS.iter().find(|setting| option.get_id() == setting.flag);
+    let setting = list::all().find(|setting| option.get_id() == setting.flag);
     let hidden = setting.is_some_and(such);
     option.hide(hidden)
 }

@@ -15,6 +15,7 @@ mod obj;
 mod optics;
 mod overlay;
 mod preset;
+mod range;
 mod shape;
 mod stage;
 mod toml;
@@ -30,6 +31,7 @@ pub use material::{Checker, Material};
 pub use optics::{FRAME_HEIGHT_MM, vfov_of_focal_length};
 pub use overlay::{FullScale, OVERLAYS, Overlay, Source};
 pub use preset::{PRESETS, Preset};
+pub use range::in_range;
 pub use shape::*;
 pub use view::View;
 

@@ -1,8 +1,8 @@
 //! Settings as the arguments of the command line that renders them: for people to copy, and for pictures to
 //! carry.
 
-use super::setting::NO_FILE;
-use super::{Changes, SETTINGS, Settings, Value};
+use super::setting::NONE;
+use super::{Changes, Settings, Value, list};
 use crate::error::{Error, Result};
 use crate::scene::{self, BUILTINS, SceneRef};
 use clap::{Arg, Args};
@@ -25,7 +25,7 @@ impl Settings {
         let scene = &self.estimator.scene;
         let plain = Self::of_scene(scene.clone());
         let mut arguments = vec![scene_argument(&scene.source, &named)];
-        for setting in SETTINGS.iter().filter(|setting| !setting.is_alias()) {
+        for setting in list::own() {
             let value = setting.get(self);
             // The size of a picture and its samples are not the scene's, wherever it is rendered again.
             let always = ["size", "samples"].contains(&setting.flag);
@@ -74,7 +74,7 @@ fn text(value: &Value, named: impl Fn(&Path) -> PathBuf) -> OsString {
         Value::Vector(place) => format!("{},{},{}", place.x, place.y, place.z).into(),
         Value::Size([width, height]) => format!("{width}x{height}").into(),
         Value::Name(name) => name.into(),
-        Value::File(file) => file.as_deref().map_or(NO_FILE.into(), |file| named(file).into()),
+        Value::File(file) => file.as_deref().map_or(NONE.into(), |file| named(file).into()),
     }
 }
 

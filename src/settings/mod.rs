@@ -1,7 +1,7 @@
 //! Everything a user can set, in the two halves that decide when the film starts anew.
 
 mod arguments;
-mod list;
+pub mod list;
 mod options;
 pub mod saved_names;
 mod scene_file;
@@ -9,16 +9,16 @@ mod setting;
 mod sweep;
 
 pub use arguments::quoted;
-pub use list::{SETTINGS, setting};
 pub use options::Changes;
-pub use setting::{Access, Called, Field, Key, Role, Setting, Value, size};
+pub use setting::{
+    Access, Called, Choice, Field, Key, Part, Role, Row, Setting, Slider, Value, Widget, size,
+};
 pub use sweep::Sweep;
 
 use crate::error::{Error, Result};
 use crate::scene::{
-    Aperture, Camera, CameraModel, FullScale, Hole, Lens, Overlay, Preset, SceneRef, Source, View,
+    Aperture, Camera, CameraModel, FullScale, Hole, Lens, Overlay, Preset, SceneRef, Source, View, in_range,
 };
-use setting::in_range;
 use std::path::Path;
 
 /// The film's count is held in f32, which is exact up to here.
@@ -218,6 +218,22 @@ impl Settings {
         settings
     }
 
+    /// The settings of another scene. What is no part of scenes stays: the size, how it is sampled, and an overlay,
+    /// unless the scene has its own.
+    #[must_use]
+    pub fn with_scene(&self, scene: SceneRef) -> Self {
+        let mut settings = Self::of_scene(scene);
+        settings.estimator.size = self.estimator.size;
+        for setting in list::own().filter(|setting| setting.is_of_sampling()) {
+            setting.set(&mut settings, &setting.get(self)).expect("no image says how a scene is sampled");
+        }
+        if settings.view.overlay.is_none() {
+            settings.view.tolerance = self.view.tolerance;
+            settings.show(self.view.overlay);
+        }
+        settings
+    }
+
     /// Shows an overlay, or none. An error needs moments, which the film then keeps from its start.
     pub fn show(&mut self, overlay: Option<Overlay>) {
         self.view.overlay = overlay;
@@ -276,7 +292,7 @@ impl Settings {
     /// As [`Settings::check`].
     pub fn check_as(&self, called: Called) -> Result<()> {
         let wrong = |fault: String| Err(Error::OutOfRange(fault));
-        for setting in SETTINGS.iter().filter(|setting| !setting.is_alias()) {
+        for setting in list::own() {
             setting.check(&setting.get(self), called)?;
         }
         let Estimator { camera, aperture, jitter, .. } = &self.estimator;
@@ -291,7 +307,7 @@ impl Settings {
         }
         // Chance lands more than its share in a pixel: by 16 standard deviations, never that many.
         let most = if *jitter > DEFAULT_JITTER { MAX_SAMPLES - (1 << 16) } else { MAX_SAMPLES };
-        let samples = || setting("samples").name(called);
+        let samples = || list::setting("samples").name(called);
         in_range(self.samples, [1, most]).or_else(|fault| wrong(format!("{} {fault}", samples())))
     }
 }

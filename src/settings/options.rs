@@ -1,7 +1,7 @@
 //! The list of settings as options of a command line, and what was given there.
 
 use super::setting::file;
-use super::{Access, Called, Role, SETTINGS, Setting, Settings, Value, setting};
+use super::{Access, Called, Role, Setting, Settings, Value, list};
 use crate::error::Result;
 use clap::builder::{PathBufValueParser, PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgMatches, Command, FromArgMatches};
@@ -16,12 +16,12 @@ impl Changes {
         let given = |setting: &'static Setting| {
             matches.get_one::<Value>(setting.flag).map(|value| (setting, value.clone()))
         };
-        Self(SETTINGS.iter().filter_map(given).collect())
+        Self(list::all().filter_map(given).collect())
     }
 
     /// Of one setting, by its flag.
     pub fn of(flag: &str, value: Value) -> Self {
-        Self(vec![(setting(flag), value)])
+        Self(vec![(list::setting(flag), value)])
     }
 
     /// Whether nothing was given.
@@ -55,7 +55,10 @@ impl std::fmt::Debug for Changes {
 
 impl clap::Args for Changes {
     fn augment_args(command: Command) -> Command {
-        command.args(SETTINGS.iter().map(option))
+        let options = list::GROUPS
+            .iter()
+            .flat_map(|group| group.settings.iter().map(|setting| option(setting).help_heading(group.title)));
+        command.args(options)
     }
 
     fn augment_args_for_update(command: Command) -> Command {
@@ -99,8 +102,8 @@ fn option(setting: &'static Setting) -> Arg {
         Access::Image(_) => option
             .value_name(setting.value_name)
             .value_parser(PathBufValueParser::new().map(|path| file(&path))),
-        Access::Choice { names, .. } => {
-            let names = names();
+        Access::Choice(_, choices) => {
+            let names: Vec<&str> = choices().into_iter().map(|choice| choice.name).collect();
             let listed = setting.value_name.is_empty();
             let name = if listed { names.join("|") } else { setting.value_name.into() };
             let one = PossibleValuesParser::new(names).try_map(|name| setting.parse(&name));

@@ -1,12 +1,12 @@
 //! Settings as a scene file: the scene's own, with the camera, its lens and the view as they are now.
 
 use super::arguments::quoted;
-use super::{EXPOSURES, Settings, in_range, name_of};
+use super::setting::NONE;
+use super::{EXPOSURES, Key, Role, Setting, Settings, Value, list};
 use crate::error::{Error, Result};
-use crate::scene::{self, CameraModel, Loaded, Overlay, Scene};
-use glam::DVec3;
+use crate::scene::{self, Loaded, SceneRef, in_range};
 use std::path::{Path, PathBuf};
-use toml_edit::{Array, DocumentMut, Item, Table, TableLike, Value, value};
+use toml_edit::{Array, DocumentMut, Item, TableLike, value};
 
 impl Settings {
     /// The text of a scene file in this folder that gives this picture, but for how it is sampled. What the
@@ -30,125 +30,102 @@ impl Settings {
             .parse()
             .map_err(|error: toml_edit::TomlError| unusable(error.message().replace('\n', "; ")))?;
         let files = Files { from: own_folder, to: folder.to_path_buf() };
-        if self.estimator.size != scene.size {
-            document["size"] = list(self.estimator.size.map(|extent| i64::from(extent).into()));
+        let plain = Self::of_scene(SceneRef::new(scene));
+        let saved = self.with_whole_exposure()?;
+        let apart = take_apart(&mut document);
+        for setting in list::own() {
+            let Some(key) = &setting.key else { continue };
+            let changed = |flag: &str| {
+                let of = list::setting(flag);
+                of.get(&saved) != of.get(&plain)
+            };
+            let value = setting.get(&saved);
+            let given = table(&mut document, key).is_some_and(|table| table.contains_key(key.name));
+            // A file has another path from another folder.
+            let moves = matches!(value, Value::File(_));
+            let follows = || key.rests_on.iter().any(|flag| changed(flag)) && !given;
+            if changed(setting.flag) || moves || apart.contains(&setting.flag) || follows() {
+                write(&mut document, setting, key, item(&value, &files)?);
+            }
         }
-        if self.estimator.max_bounces != scene.max_bounces {
-            document["max_bounces"] = value(i64::from(self.estimator.max_bounces));
-        }
-        let camera = document.get_mut("camera").and_then(Item::as_table_like_mut);
-        let camera = camera.ok_or_else(|| unusable("the file has no [camera] any more".into()))?;
-        self.write_camera(&mut Keys(camera), &scene, &files)?;
         match document.get_mut("mesh") {
             Some(Item::ArrayOfTables(meshes)) => {
                 meshes.iter_mut().try_for_each(|mesh| files.move_mesh(mesh))?;
             }
-            Some(Item::Value(Value::Array(meshes))) => {
-                let mut meshes = meshes.iter_mut().filter_map(Value::as_inline_table_mut);
+            Some(Item::Value(toml_edit::Value::Array(meshes))) => {
+                let mut meshes = meshes.iter_mut().filter_map(toml_edit::Value::as_inline_table_mut);
                 meshes.try_for_each(|mesh| files.move_mesh(mesh))?;
             }
             _ => {}
         }
-        if let Some(view) = document.get_mut("view").and_then(Item::as_table_like_mut) {
-            self.write_view(&mut Keys(view), &scene)?;
-        } else {
-            let mut view = Table::new();
-            self.write_view(&mut Keys(&mut view), &scene)?;
-            if !view.is_empty() {
-                document["view"] = Item::Table(view);
-            }
-        }
         Ok(document.to_string())
     }
 
-    fn write_camera(&self, keys: &mut Keys<'_>, scene: &Scene, files: &Files) -> Result<()> {
-        let estimator = &self.estimator;
-        let (camera, own) = (&estimator.camera, &scene.camera);
-        keys.vector("eye", camera.eye, own.eye);
-        keys.vector("look_at", camera.look_at, own.look_at);
-        keys.vector("up", camera.up, own.up);
-        keys.change("metres_per_unit", camera.metres_per_unit, own.metres_per_unit, |is| is);
-        // Lengths that the file gives by way of these are given themselves once these change.
-        let resized = estimator.size[1] != scene.size[1] && keys.0.contains_key("view_distance");
-        let units = (camera.vfov_radians, camera.metres_per_unit) != (own.vfov_radians, own.metres_per_unit);
-        let preset = keys.0.contains_key("preset");
-        if camera.vfov_radians != own.vfov_radians || resized || preset {
-            keys.put("vfov_degrees", camera.vfov_degrees(), &["view_distance", "pixel_size"]);
-        }
-        if estimator.model != scene.model || preset {
-            keys.put("model", name_of(&CameraModel::NAMES, &estimator.model), &[]);
-        }
-        if estimator.lens.diameter != scene.lens.diameter || units || preset {
-            keys.put("lens_diameter", digits(estimator.lens.diameter), &["f_number", "preset"]);
-        }
-        if estimator.hole.diameter != scene.hole.diameter || units {
-            keys.put("hole_diameter", digits(estimator.hole.diameter), &[]);
-        }
-        keys.number("focal_distance", estimator.lens.focal_distance, scene.lens.focal_distance);
-        keys.change("upright", estimator.hole.upright, scene.hole.upright, |is| is);
-
-        let (aperture, own) = (&estimator.aperture, &scene.aperture);
-        keys.change("blades", aperture.blades, own.blades, i64::from);
-        keys.number("blade_rotation_degrees", aperture.rotation_degrees, own.rotation_degrees);
-        keys.number("roundness", aperture.roundness, own.roundness);
-        keys.number("anamorphic", aperture.anamorphic, own.anamorphic);
-        keys.number("cats_eye", aperture.cats_eye, own.cats_eye);
-        match &aperture.image {
-            Some(image) => keys.put("aperture_image", files.seen(&image.file)?, &[]),
-            None => drop(keys.0.remove("aperture_image")),
-        }
-        keys.number("shutter", estimator.shutter, scene.shutter);
-        keys.number("iso", self.view.iso, scene.view.iso);
-        Ok(())
-    }
-
-    fn write_view(&self, keys: &mut Keys<'_>, scene: &Scene) -> Result<()> {
-        let (view, own) = (&self.view, &scene.view);
+    /// The same picture, whose brightness is all in its exposure: a scene's is relative to its own lens and shutter.
+    fn with_whole_exposure(&self) -> Result<Self> {
+        let mut saved = self.clone();
         let brightness = self.exposure();
-        let relative = brightness != view.exposure_stops.exp2();
-        let stops = if relative { brightness.log2() } else { view.exposure_stops };
-        in_range(stops, EXPOSURES)
-            .map_err(|fault| Error::OutOfRange(format!("exposure of the saved scene {fault}")))?;
-        keys.number("exposure", stops, own.exposure_stops);
-        keys.change("exposure_lock", view.exposure_lock, own.exposure_lock, |is| is);
-        keys.number("tolerance", view.tolerance, own.tolerance);
-        if view.overlay != own.overlay {
-            match view.overlay {
-                Some(overlay) => keys.put("overlay", name_of(&Overlay::NAMES, &overlay), &[]),
-                None => drop(keys.0.remove("overlay")),
-            }
+        if brightness != self.view.exposure_stops.exp2() {
+            saved.view.exposure_stops = brightness.log2();
         }
-        Ok(())
+        in_range(saved.view.exposure_stops, EXPOSURES)
+            .map_err(|fault| Error::OutOfRange(format!("exposure of the saved scene {fault}")))?;
+        Ok(saved)
     }
 }
 
-/// A table, of which only what changes is written.
-struct Keys<'a>(&'a mut dyn TableLike);
-
-impl Keys<'_> {
-    /// Writes a key in place of others.
-    fn put(&mut self, key: &str, is: impl Into<Value>, instead_of: &[&str]) {
-        for other in instead_of {
-            self.0.remove(other);
-        }
-        self.0.insert(key, value(is));
-    }
-
-    fn change<T: PartialEq, V: Into<Value>>(&mut self, key: &str, is: T, was: T, as_toml: impl Fn(T) -> V) {
-        if is != was {
-            self.put(key, as_toml(is), &[]);
+/// Takes those keys out that stand for several settings, as a known lens does, and gives the flags of these: what
+/// is left of it once one of them changes could not be told.
+fn take_apart(document: &mut DocumentMut) -> Vec<&'static str> {
+    let mut apart = Vec::new();
+    for alias in list::all() {
+        if let (Role::Alias(of @ [_, _, ..]), Some(key)) = (alias.role, &alias.key)
+            && table(document, key).and_then(|table| table.remove(key.name)).is_some()
+        {
+            apart.extend(of);
         }
     }
+    apart
+}
 
-    fn number(&mut self, key: &str, is: f32, was: f32) {
-        self.change(key, is, was, digits);
+/// The table of a key, if the file has it.
+fn table<'a>(document: &'a mut DocumentMut, key: &Key) -> Option<&'a mut dyn TableLike> {
+    match key.table {
+        "" => Some(document.as_table_mut()),
+        name => document.get_mut(name)?.as_table_like_mut(),
     }
+}
 
-    fn vector(&mut self, key: &str, is: DVec3, was: DVec3) {
-        if is != was {
-            self.0.insert(key, list(is.to_array().map(Value::from)));
-        }
+/// Writes a key in place of others that give the same, or takes it out.
+fn write(document: &mut DocumentMut, setting: &Setting, key: &Key, item: Option<Item>) {
+    if item.is_some() && table(document, key).is_none() {
+        document.insert(key.table, toml_edit::table());
     }
+    let Some(table) = table(document, key) else { return };
+    let alias = |other: &&Setting| matches!(other.role, Role::Alias([of]) if *of == setting.flag);
+    let aliases = list::all().filter(alias).filter_map(|other| other.key.as_ref());
+    for other in aliases.map(|other| other.name).chain(key.otherwise.iter().copied()) {
+        table.remove(other);
+    }
+    match item {
+        Some(item) => table.insert(key.name, item),
+        None => table.remove(key.name),
+    };
+}
+
+/// A value as a scene file has it; none where the key is left out.
+fn item(is: &Value, files: &Files) -> Result<Option<Item>> {
+    Ok(Some(match is {
+        Value::Single(number) => value(digits(*number)),
+        Value::Double(number) => value(*number),
+        Value::Whole(number) => value(i64::from(*number)),
+        Value::Switch(is) => value(*is),
+        Value::Vector(place) => list(place.to_array()),
+        Value::Size(size) => list(size.map(i64::from)),
+        Value::Name(NONE) | Value::File(None) => return Ok(None),
+        Value::Name(name) => value(*name),
+        Value::File(Some(file)) => value(files.seen(file)?),
+    }))
 }
 
 /// The number of as few digits that comes back as this f32.
@@ -156,7 +133,7 @@ fn digits(number: f32) -> f64 {
     number.to_string().parse().unwrap_or(f64::from(number))
 }
 
-fn list<const N: usize>(values: [Value; N]) -> Item {
+fn list<T: Into<toml_edit::Value>>(values: impl IntoIterator<Item = T>) -> Item {
     value(values.into_iter().collect::<Array>())
 }
 

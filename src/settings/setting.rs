@@ -2,9 +2,9 @@
 
 use super::Settings;
 use crate::error::{Error, Result};
-use crate::scene::ApertureImage;
+use crate::scene::{ApertureImage, in_range};
 use glam::DVec3;
-use std::fmt::Display;
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 /// One setting. Command line, scene files, pictures, the panel and the documentation know of it by this alone.
@@ -26,6 +26,8 @@ pub struct Setting {
     pub key: Option<Key>,
     /// Where its value stands, and what it may be.
     pub access: Access,
+    /// Its row of the viewer's panel, if it has one.
+    pub row: Option<Row>,
 }
 
 /// What a change of a setting changes.
@@ -49,6 +51,10 @@ pub struct Key {
     pub table: &'static str,
     /// Its name.
     pub name: &'static str,
+    /// Other keys by which a file can give it. They go where it is written.
+    pub otherwise: &'static [&'static str],
+    /// The flags of settings on which it depends where a file does not have the key itself.
+    pub rests_on: &'static [&'static str],
 }
 
 /// Where a value stands.
@@ -78,14 +84,78 @@ pub enum Access {
     /// A width and a height, in pixels.
     Size(Field<[u32; 2]>, [u32; 2]),
     /// One of several, by its name.
-    Choice {
-        /// All of them.
-        names: fn() -> Vec<&'static str>,
-        /// Where the name stands.
-        field: Field<&'static str>,
-    },
+    Choice(Field<&'static str>, fn() -> Vec<Choice>),
     /// An image in a file, or none.
     Image(Field<Option<ApertureImage>>),
+}
+
+/// One of several things that a setting can be.
+#[derive(Debug, Clone, Copy)]
+pub struct Choice {
+    /// What it is called on the command line and in scene files.
+    pub name: &'static str,
+    /// What it is called in the panel.
+    pub label: &'static str,
+    /// What it does.
+    pub help: &'static str,
+}
+
+/// A row of the viewer's panel.
+pub struct Row {
+    /// The part of the panel where it stands. The rows of a part stand in the order of the list.
+    pub part: Part,
+    /// What it is called.
+    pub label: &'static str,
+    /// What its tooltip says.
+    pub help: &'static str,
+    /// Whether it does anything now; else it is not shown.
+    pub shown: fn(&Settings) -> bool,
+    /// How its value is changed.
+    pub widget: Widget,
+}
+
+/// A part of the viewer's panel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs, reason = "they are called as the parts of the panel are")]
+pub enum Part {
+    Top,
+    Lens,
+    Aperture,
+    Viewpoint,
+    Light,
+    Sampling,
+    View,
+}
+
+/// How a row changes a value.
+pub enum Widget {
+    /// A slider.
+    Slider(Slider),
+    /// A box with a tick for yes.
+    Box,
+    /// A box with a tick for one number, and without one for another.
+    BoxOf {
+        /// With a tick.
+        ticked: f32,
+        /// Without.
+        plain: f32,
+    },
+    /// A list that folds out.
+    List,
+    /// Three numbers that are dragged.
+    Drag,
+}
+
+/// How a slider goes over its values.
+pub struct Slider {
+    /// From where to where, for a scene that has these settings of its own.
+    pub range: fn(&Settings) -> [f32; 2],
+    /// How a value is shown, in the language of C's `printf`.
+    pub format: fn(f32) -> Cow<'static, str>,
+    /// Whether equal ways are equal ratios, not equal differences.
+    pub logarithmic: bool,
+    /// Whether a value becomes what is shown of it, with no more digits.
+    pub rounds: bool,
 }
 
 /// What a setting is, or is to be.
@@ -116,16 +186,19 @@ pub enum Called {
     Flag,
     /// In a scene file.
     Key,
+    /// In the panel.
+    Label,
 }
 
-/// What is written in place of a file's name where none is wanted.
-pub(super) const NO_FILE: &str = "none";
+/// What is given in place of a name where none is wanted.
+pub(super) const NONE: &str = "none";
 
 impl Setting {
     /// What the user calls it.
     pub fn name(&self, called: Called) -> String {
-        match (called, self.key) {
-            (Called::Key, Some(key)) => key.name.into(),
+        match (called, &self.key, &self.row) {
+            (Called::Key, Some(key), _) => key.name.into(),
+            (Called::Label, _, Some(row)) => row.label.into(),
             _ => format!("--{}", self.flag),
         }
     }
@@ -139,7 +212,7 @@ impl Setting {
             Access::Switch(field) => Value::Switch((field.get)(settings)),
             Access::Vector(field, _) => Value::Vector((field.get)(settings)),
             Access::Size(field, _) => Value::Size((field.get)(settings)),
-            Access::Choice { field, .. } => Value::Name((field.get)(settings)),
+            Access::Choice(field, _) => Value::Name((field.get)(settings)),
             Access::Image(field) => Value::File((field.get)(settings).map(|image| image.file.clone())),
         }
     }
@@ -160,7 +233,7 @@ impl Setting {
             (Access::Switch(field), Value::Switch(value)) => (field.set)(settings, *value),
             (Access::Vector(field, _), Value::Vector(value)) => (field.set)(settings, *value),
             (Access::Size(field, _), Value::Size(value)) => (field.set)(settings, *value),
-            (Access::Choice { field, .. }, Value::Name(value)) => (field.set)(settings, value),
+            (Access::Choice(field, _), Value::Name(value)) => (field.set)(settings, value),
             (Access::Image(field), Value::File(file)) => {
                 let image = file.as_deref().map(ApertureImage::read).transpose()?;
                 (field.set)(settings, image);
@@ -223,8 +296,11 @@ impl Setting {
             Access::Size(..) => {
                 (size(text).map(Value::Size), "a size is WIDTHxHEIGHT in pixels, such as 1280x720")
             }
-            Access::Choice { names, .. } => (
-                names().into_iter().find(|name| *name == text).map(Value::Name),
+            Access::Choice(_, choices) => (
+                choices()
+                    .into_iter()
+                    .find(|choice| choice.name == text)
+                    .map(|choice| Value::Name(choice.name)),
                 "there is none of this name",
             ),
             Access::Image(_) => (Some(file(Path::new(text))), ""),
@@ -245,7 +321,7 @@ impl Setting {
 
 /// What a file's name on the command line stands for.
 pub(super) fn file(path: &Path) -> Value {
-    Value::File((path.as_os_str() != NO_FILE).then(|| path.to_path_buf()))
+    Value::File((path.as_os_str() != NONE).then(|| path.to_path_buf()))
 }
 
 fn vector(text: &str) -> Option<DVec3> {
@@ -264,18 +340,4 @@ fn seconds(text: &str) -> Option<f32> {
 pub fn size(text: &str) -> Option<[u32; 2]> {
     let (width, height) = text.split_once(['x', 'X'])?;
     Some([width.parse().ok()?, height.parse().ok()?])
-}
-
-/// What is wrong with a number that is outside of a range. NaN is in no range.
-///
-/// # Errors
-/// What is wrong, as the end of a sentence.
-pub(super) fn in_range<T>(value: T, [low, high]: [T; 2]) -> Result<(), String>
-where
-    T: PartialOrd + Display,
-{
-    if value >= low && value <= high {
-        return Ok(());
-    }
-    Err(format!("is {value}, but must be from {low} to {high}"))
 }

@@ -1,8 +1,10 @@
 //! The part of the panel that shapes the opening.
 
-use super::widgets::{Layout, combo, named, note_item, tooltip};
-use crate::scene::{Aperture, ApertureImage, BLADES, CameraModel};
-use imgui::{SliderFlags, Ui};
+use super::Panel;
+use super::widgets::{Layout, combo, note_item, tooltip};
+use crate::scene::{Aperture, CameraModel};
+use crate::settings::Part;
+use imgui::Ui;
 
 /// What an opening can be made of.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -36,96 +38,35 @@ fn shape_of(aperture: &Aperture) -> Shape {
     }
 }
 
-/// `image`: the one that was opened last.
-pub(super) fn edit(
-    ui: &Ui,
-    aperture: &mut Aperture,
-    image: Option<&ApertureImage>,
-    model: CameraModel,
-    layout: &mut Layout,
-) {
-    let shape = shape_of(aperture);
-    let offered = |choice: Shape| match choice {
-        Shape::Disc | Shape::Iris => true,
-        Shape::CatsEye => model == CameraModel::ThinLens,
-        Shape::Image => image.is_some(),
-    };
-    let shown = SHAPES.iter().find(|entry| entry.0 == shape).map_or("", |entry| entry.1);
-    let help = "The shape of the opening, which is the shape of the blur.";
-    combo(ui, "Aperture", shown, help, layout, |layout| {
-        for (choice, label, help) in SHAPES.into_iter().filter(|entry| offered(entry.0)) {
-            if ui.selectable_config(label).selected(choice == shape).build() && choice != shape {
-                let anamorphic = aperture.anamorphic;
-                *aperture = Aperture { anamorphic, ..Aperture::default() };
-                match choice {
-                    Shape::Disc => {}
-                    Shape::Iris => aperture.blades = 6,
-                    Shape::CatsEye => aperture.cats_eye = 0.5,
-                    Shape::Image => aperture.image = image.cloned(),
+impl Panel {
+    /// What the opening is made of, and its rows.
+    pub(super) fn aperture(&mut self, ui: &Ui, layout: &mut Layout) {
+        let estimator = &mut self.settings.estimator;
+        let (aperture, image, model) = (&mut estimator.aperture, self.image.as_ref(), estimator.model);
+        let shape = shape_of(aperture);
+        let offered = |choice: Shape| match choice {
+            Shape::Disc | Shape::Iris => true,
+            Shape::CatsEye => model == CameraModel::ThinLens,
+            Shape::Image => image.is_some(),
+        };
+        let shown = SHAPES.iter().find(|entry| entry.0 == shape).map_or("", |entry| entry.1);
+        let help = "The shape of the opening, which is the shape of the blur.";
+        combo(ui, "Aperture", shown, help, layout, |layout| {
+            for (choice, label, help) in SHAPES.into_iter().filter(|entry| offered(entry.0)) {
+                if ui.selectable_config(label).selected(choice == shape).build() && choice != shape {
+                    let anamorphic = aperture.anamorphic;
+                    *aperture = Aperture { anamorphic, ..Aperture::default() };
+                    match choice {
+                        Shape::Disc => {}
+                        Shape::Iris => aperture.blades = 6,
+                        Shape::CatsEye => aperture.cats_eye = 0.5,
+                        Shape::Image => aperture.image = image.cloned(),
+                    }
                 }
+                note_item(ui, label, layout);
+                tooltip(ui, help);
             }
-            note_item(ui, label, layout);
-            tooltip(ui, help);
-        }
-    });
-    match shape_of(aperture) {
-        Shape::Iris => iris(ui, aperture, layout),
-        Shape::CatsEye => named(
-            ui,
-            "Rim",
-            "How far the front rim is off the lens's centre, seen from the picture's corner, in diameters.",
-            layout,
-            |id| {
-                ui.slider_config(id, 0.01, 1.0)
-                    .display_format("%.2f")
-                    .flags(SliderFlags::ALWAYS_CLAMP)
-                    .build(&mut aperture.cats_eye);
-            },
-        ),
-        Shape::Disc | Shape::Image => {}
+        });
+        self.rows(ui, Part::Aperture, layout);
     }
-    named(
-        ui,
-        "Anamorphic",
-        "How often the opening's width goes into its height. Lenses for wide screens squeeze the picture, and leave tall ovals.",
-        layout,
-        |id| {
-            ui.slider_config(id, 0.5, 2.0)
-                .display_format("%.2f")
-                .flags(SliderFlags::ALWAYS_CLAMP | SliderFlags::LOGARITHMIC)
-                .build(&mut aperture.anamorphic);
-        },
-    );
-}
-
-fn iris(ui: &Ui, aperture: &mut Aperture, layout: &mut Layout) {
-    named(
-        ui,
-        "Blades",
-        "How many blades the iris has. Their corners lie on the rim of the lens diameter: six let in 83% of the light of a disc.",
-        layout,
-        |id| {
-            ui.slider_config(id, *BLADES.start(), *BLADES.end())
-                .flags(SliderFlags::ALWAYS_CLAMP)
-                .build(&mut aperture.blades);
-        },
-    );
-    named(
-        ui,
-        "Blade rotation",
-        "How far the iris is turned anticlockwise, in degrees, seen from behind the camera. At 0 the middle of an edge is at the right.",
-        layout,
-        |id| {
-            ui.slider_config(id, -90.0, 90.0)
-                .display_format("%.0f deg")
-                .flags(SliderFlags::ALWAYS_CLAMP)
-                .build(&mut aperture.rotation_degrees);
-        },
-    );
-    named(ui, "Roundness", "How far the blades' edges are bent: 0 is a polygon, 1 a disc.", layout, |id| {
-        ui.slider_config(id, 0.0, 1.0)
-            .display_format("%.2f")
-            .flags(SliderFlags::ALWAYS_CLAMP)
-            .build(&mut aperture.roundness);
-    });
 }

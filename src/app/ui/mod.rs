@@ -1,14 +1,13 @@
 //! The panel.
 
 mod aperture;
-mod camera;
 mod compare;
 mod files;
 mod lens;
-mod light;
 mod numbers;
 mod optics;
 mod overlay;
+mod rows;
 mod sampling;
 mod widgets;
 
@@ -19,26 +18,16 @@ use crate::error::Error;
 use crate::output::{Origin, PictureFormat};
 use crate::renderer::{Picked, Progress};
 use crate::scene::{self, ApertureImage, BUILTINS, CameraModel, SceneRef};
-use crate::settings::Settings;
+use crate::settings::{Part, Settings};
 use compare::Held;
 use files::Files;
-use imgui::{Condition, SliderFlags, Ui};
+use imgui::{Condition, Ui};
 use optics::Optics;
 use std::path::{Path, PathBuf};
-use widgets::{Layout, combo, named, note_item, section, tooltip};
-
-/// The points slider goes this far, or as far as was asked for.
-const MAX_POINTS: u32 = 4096;
+use widgets::{Layout, combo, note_item, section, tooltip};
 
 /// Files that are offered again.
 const MOST_RECENT: usize = 8;
-
-/// How sliders go over several orders of magnitude.
-const LOGARITHMIC: SliderFlags = SliderFlags::from_bits_truncate(
-    SliderFlags::LOGARITHMIC.bits()
-        | SliderFlags::ALWAYS_CLAMP.bits()
-        | SliderFlags::NO_ROUND_TO_FORMAT.bits(),
-);
 
 /// Width of the panel, in points.
 const PANEL_WIDTH: f32 = 320.0;
@@ -53,7 +42,6 @@ pub(super) struct Panel {
     initial: Settings,
     /// What the renderer took last: of this is the picture that is shown.
     accepted: State,
-    max_points: u32,
     /// The last aperture that was an image.
     image: Option<ApertureImage>,
     /// The choices: the built-ins, and what was opened.
@@ -132,7 +120,6 @@ impl Panel {
         let mut panel = Self {
             initial: options.initial.clone(),
             accepted: State { settings: settings.clone(), initial: options.initial.clone() },
-            max_points: settings.samples.max(MAX_POINTS),
             image: settings.estimator.aperture.image.clone(),
             settings,
             scenes: BUILTINS.iter().map(|builtin| builtin.name.into()).collect(),
@@ -169,7 +156,7 @@ impl Panel {
             .resizable(false)
             .build(|| {
                 self.scene_chooser(ui, &mut layout);
-                self.main_sliders(ui, &mut layout);
+                self.rows(ui, Part::Top, &mut layout);
                 self.progress(ui, status);
                 let mut button = |name, asks| {
                     if ui.button(name) {
@@ -206,19 +193,24 @@ impl Panel {
                     ui.same_line();
                 }
                 ui.new_line();
-                section(ui, "Lens", false, &mut layout, |layout| self.opening(ui, layout));
+                section(ui, "Lens", false, &mut layout, |layout| self.lens(ui, layout));
                 if self.settings.estimator.model != CameraModel::Pinhole {
-                    section(ui, "Aperture shape", false, &mut layout, |layout| self.shape(ui, layout));
+                    section(ui, "Aperture shape", false, &mut layout, |layout| self.aperture(ui, layout));
                 }
                 section(ui, "Viewpoint", false, &mut layout, |layout| {
-                    if camera::edit(ui, &mut self.settings.estimator.camera, layout) {
+                    self.rows(ui, Part::Viewpoint, layout);
+                    if ui.button("Reset camera") {
                         action = Some(Action::ResetCamera);
                     }
+                    note_item(ui, "Reset camera", layout);
+                    tooltip(ui, "Back to where the scene was opened (Home). Everything else stays.");
                 });
                 section(ui, "What is sharp", true, &mut layout, |_| self.numbers(ui, status.picked));
-                section(ui, "Light", false, &mut layout, |layout| self.exposure(ui, layout));
-                section(ui, "Sampling", false, &mut layout, |layout| self.sampling(ui, layout));
-                section(ui, "View", false, &mut layout, |layout| self.view(ui, layout));
+                section(ui, "Light", false, &mut layout, |layout| self.rows(ui, Part::Light, layout));
+                section(ui, "Sampling", false, &mut layout, |layout| {
+ self.rows(ui, Part::Sampling, layout);
+});
+                section(ui, "View", false, &mut layout, |layout| self.rows(ui, Part::View, layout));
                 section(ui, "Files", false, &mut layout, |layout| {
                     action = self.files(ui, layout).or(action);
                 });
@@ -334,16 +326,15 @@ impl Panel {
     pub(super) fn open(&mut self, name: &Path) {
         let opened = match PictureFormat::of(name) {
             Some(_) => Origin::read(name).and_then(|origin| Settings::of_arguments(&origin.arguments)),
-            None => scene::load(name).map(|loaded| self.with_scene(SceneRef::new(loaded))),
+            None => scene::load(name).map(|loaded| self.settings.with_scene(SceneRef::new(loaded))),
         };
         match opened {
             Ok(mut settings) => {
                 settings.estimator.size = self.settings.estimator.size;
                 self.initial = Settings {
                     samples: settings.samples,
-                    ..self.with_scene(settings.estimator.scene.clone())
+                    ..self.settings.with_scene(settings.estimator.scene.clone())
                 };
-                self.max_points = self.max_points.max(settings.samples);
                 self.image = settings.estimator.aperture.image.clone().or(self.image.take());
                 self.settings = settings;
                 self.message = self.settings.estimator.too_coarse();
@@ -364,38 +355,8 @@ impl Panel {
         self.recent.truncate(MOST_RECENT);
     }
 
-    /// Another scene's settings. How it is sampled stays, and an overlay, unless the scene has its own.
-    fn with_scene(&self, scene: SceneRef) -> Settings {
-        let mut settings = Settings::of_scene(scene);
-        let (now, estimator) = (&self.settings, &mut settings.estimator);
-        estimator.size = now.estimator.size;
-        estimator.jitter = now.estimator.jitter;
-        (estimator.sampler, estimator.seed) = (now.estimator.sampler, now.estimator.seed);
-        estimator.noise_threshold = now.estimator.noise_threshold;
-        settings.samples = now.samples;
-        if settings.view.overlay.is_none() {
-            settings.view.tolerance = now.view.tolerance;
-            settings.show(now.view.overlay);
-        }
-        settings
-    }
-
-    fn shape(&mut self, ui: &Ui, layout: &mut Layout) {
-        let estimator = &mut self.settings.estimator;
-        aperture::edit(ui, &mut estimator.aperture, self.image.as_ref(), estimator.model, layout);
-    }
-
-    fn main_sliders(&mut self, ui: &Ui, layout: &mut Layout) {
-        self.aperture_and_focus(ui, layout);
-        let (samples, max_points) = (&mut self.settings.samples, self.max_points);
-        named(
-            ui,
-            "Anti-aliasing points per pixel",
-            "How many rays are averaged in each pixel: more give less noise. Raising it goes on from what is there.",
-            layout,
-            |id| {
-                ui.slider_config(id, 1, max_points).flags(LOGARITHMIC).build(samples);
-            },
-        );
+    /// The rows of a part that change settings.
+    fn rows(&mut self, ui: &Ui, part: Part, layout: &mut Layout) {
+        rows::rows(ui, part, &mut self.settings, &self.initial, layout);
     }
 }

@@ -5,7 +5,7 @@ use super::widgets::{Layout, note_item, tooltip};
 use super::{MARGIN, PANEL_WIDTH};
 use crate::app::diagram::{Diagram, Line};
 use glam::DVec3;
-use imgui::{Condition, DrawListMut, StyleColor, Ui, WindowFlags};
+use imgui::{Condition, DrawListMut, SliderFlags, StyleColor, Ui, WindowFlags};
 use std::f64::consts::TAU;
 
 type Color = [f32; 4];
@@ -117,7 +117,7 @@ impl Optics {
         ui.set_next_item_width(130.0);
         ui.slider_config("##stretch", 1.0, 50.0)
             .display_format(if self.stretch > 1.0 { "%.1fx as high" } else { "to scale" })
-            .flags(super::LOGARITHMIC)
+            .flags(SliderFlags::LOGARITHMIC | SliderFlags::ALWAYS_CLAMP | SliderFlags::NO_ROUND_TO_FORMAT)
             .build(&mut self.stretch);
         note_item(ui, "Stretch", layout);
         tooltip(

@@ -1,39 +1,10 @@
-//! What is shown instead of the picture, and its legend.
+//! The legend of what is shown instead of the picture.
 
-use super::widgets::{Layout, combo, named, note_item, tooltip};
-use super::{LOGARITHMIC, MARGIN, Panel};
-use crate::scene::OVERLAYS;
-use crate::settings::{Settings, TOLERANCES};
+use super::MARGIN;
+use crate::settings::Settings;
 use imgui::{Condition, Ui, WindowFlags};
 
-/// Label and help of no overlay.
-const PICTURE: (&str, &str) = ("Picture", "The picture alone.");
-
 const WIDTH: f32 = 260.0;
-
-impl Panel {
-    pub(super) fn view(&mut self, ui: &Ui, layout: &mut Layout) {
-        let now = self.settings.view.overlay;
-        let shown = now.map_or(PICTURE.0, |overlay| overlay.entry().label);
-        combo(ui, "Show", shown, "What is shown, instead of the picture or on it.", layout, |layout| {
-            let overlays = OVERLAYS.iter().map(|entry| (Some(entry.overlay), entry.label, entry.help));
-            for (choice, label, help) in [(None, PICTURE.0, PICTURE.1)].into_iter().chain(overlays) {
-                if ui.selectable_config(label).selected(choice == now).build() {
-                    self.settings.show(choice);
-                }
-                note_item(ui, label, layout);
-                tooltip(ui, help);
-            }
-        });
-        let tolerance = &mut self.settings.view.tolerance;
-        named(ui, "Tolerance", "How wide a circle of confusion may be that counts as sharp.", layout, |id| {
-            ui.slider_config(id, TOLERANCES[0].max(0.1), 30.0)
-                .display_format("%.2f px")
-                .flags(LOGARITHMIC)
-                .build(tolerance);
-        });
-    }
-}
 
 /// At the lower right.
 pub(super) fn legend(ui: &Ui, settings: &Settings) {

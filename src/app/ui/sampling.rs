@@ -1,38 +1,10 @@
-//! The parts of the panel that say how the picture is sampled, and how far it is.
+//! The parts of the panel that say how far the picture is, and on which device.
 
-use super::widgets::{Layout, named, note_item, tooltip};
 use super::{Panel, Status};
 use crate::renderer::Progress;
-use crate::settings::DEFAULT_JITTER;
-use imgui::{SliderFlags, Ui};
+use imgui::Ui;
 
 impl Panel {
-    pub(super) fn sampling(&mut self, ui: &Ui, layout: &mut Layout) {
-        let estimator = &mut self.settings.estimator;
-        let mut centre_only = estimator.jitter == 0.0;
-        if ui.checkbox("One centre ray per pixel", &mut centre_only) {
-            estimator.jitter = if centre_only { 0.0 } else { DEFAULT_JITTER };
-        }
-        note_item(ui, "One centre ray per pixel", layout);
-        tooltip(
-            ui,
-            "All rays of a pixel aim at one point in focus: edges in the focal plane turn jagged, blur stays.",
-        );
-
-        named(
-            ui,
-            "Noise threshold",
-            "A pixel stops once its error is below this share of its brightness, and the work goes where the noise is. 0: none stops.",
-            layout,
-            |id| {
-                ui.slider_config(id, 0.0, 0.2)
-                    .display_format(if estimator.noise_threshold > 0.0 { "%.3f" } else { "off" })
-                    .flags(SliderFlags::ALWAYS_CLAMP)
-                    .build(&mut estimator.noise_threshold);
-            },
-        );
-    }
-
     pub(super) fn progress(&self, ui: &Ui, status: &Status<'_>) {
         let Progress { samples, active_pixels, traced, device_time, .. } = status.progress;
         let target = self.settings.samples;

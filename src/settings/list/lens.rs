@@ -1,0 +1,179 @@
+//! What forms the picture: the lens or the hole.
+
+use super::{EVEN, LOGARITHMIC, by_name, camera, field, row};
+use crate::scene::{CameraModel, MAX_LENGTH, MIN_LENGTH};
+use crate::settings::{
+    Access, Choice, F_NUMBERS, Field, Key, Part, Role, Row, Setting, Settings, Slider, Widget, name_of, named,
+};
+
+/// The cameras, as people know them.
+const CAMERAS: [Choice; 3] = [
+    Choice {
+        name: "thin-lens",
+        label: "Thin lens",
+        help: "Sharp in one plane, and blurred before and behind it: the wider, the more. An ideal lens: real ones also have coloured reflections, which their coatings leave over.",
+    },
+    Choice { name: "pinhole", label: "Ideal pinhole", help: "A hole without size: everything is sharp." },
+    Choice {
+        name: "hole",
+        label: "Hole, no lens",
+        help: "A box with a hole: upside down, for the light crosses in the hole; sharp through a small one, fuzzy and brighter through a large one.",
+    },
+];
+
+fn has_lens(settings: &Settings) -> bool {
+    settings.estimator.model == CameraModel::ThinLens
+}
+
+fn has_hole(settings: &Settings) -> bool {
+    settings.estimator.model == CameraModel::Hole
+}
+
+fn lens_diameters(initial: &Settings) -> [f32; 2] {
+    let lens = &initial.estimator.lens;
+    let widest = if lens.diameter > 0.0 { 8.0 * lens.diameter } else { 0.1 * lens.focal_distance };
+    [0.0, widest.min(MAX_LENGTH)]
+}
+
+fn focal_distances(initial: &Settings) -> [f32; 2] {
+    let distance = initial.estimator.lens.focal_distance;
+    [(distance / 20.0).max(MIN_LENGTH), (distance * 20.0).min(MAX_LENGTH)]
+}
+
+fn hole_diameters(initial: &Settings) -> [f32; 2] {
+    [0.0, (20.0 * initial.estimator.camera.default_hole_diameter()).min(MAX_LENGTH)]
+}
+
+/// The lens or the hole.
+pub(super) static LENS: &[Setting] = &[
+    Setting {
+        flag: "camera",
+        letter: None,
+        value_name: "",
+        help: "What forms the picture: a thin lens, an ideal pinhole that leaves everything sharp, or a real hole in \
+               a box, without a lens",
+        default: "the scene's",
+        role: Role::Estimator,
+        key: camera("model"),
+        access: Access::Choice(by_name!(CameraModel::NAMES, estimator.model), || CAMERAS.to_vec()),
+        row: row(Part::Lens, "Camera", "What forms the picture.", Widget::List),
+    },
+    Setting {
+        flag: "lens-diameter",
+        letter: None,
+        value_name: "L",
+        help: "Diameter of the lens, in scene units: wider blurs more, 0 is a pinhole",
+        default: "the scene's",
+        role: Role::Estimator,
+        key: Some(Key {
+            table: "camera",
+            name: "lens_diameter",
+            otherwise: &[],
+            rests_on: &["vfov", "metres-per-unit"],
+        }),
+        access: Access::Single(field!(estimator.lens.diameter), [0.0, MAX_LENGTH]),
+        row: Some(Row {
+            part: Part::Top,
+            label: "Lens diameter",
+            help: "How wide the lens is, in scene units; of an eye, the pupil. A wide one blurs more and needs more points per pixel. 0 is a pinhole: everything is sharp.",
+            shown: has_lens,
+            widget: Widget::Slider(Slider {
+                range: lens_diameters,
+                format: |_| "%.4g".into(),
+                ..Slider { rounds: false, ..EVEN }
+            }),
+        }),
+    },
+    Setting {
+        flag: "f-number",
+        letter: None,
+        value_name: "N",
+        help: "The same by its f-number, which is the film's distance behind the lens over the diameter; the film \
+               stands 12 mm / tan(vfov / 2) behind it",
+        default: "",
+        role: Role::Alias(&["lens-diameter"]),
+        key: camera("f_number"),
+        access: Access::Double(
+            Field {
+                get: |settings| settings.estimator.f_number(),
+                set: |settings, f_number| settings.estimator.set_f_number(f_number),
+            },
+            F_NUMBERS,
+        ),
+        row: Some(Row {
+            part: Part::Lens,
+            label: "f-number",
+            help: "The lens diameter as photographers give it: the film's distance divided by the diameter. Each stop, a button here, halves the light.",
+            shown: has_lens,
+            widget: Widget::Slider(Slider {
+                range: |_| [0.5, 128.0],
+                format: |_| "f/%.3g".into(),
+                ..LOGARITHMIC
+            }),
+        }),
+    },
+    Setting {
+        flag: "focal-distance",
+        letter: None,
+        value_name: "L",
+        help: "Distance of the plane in focus, in scene units along the axis",
+        default: "the scene's",
+        role: Role::Estimator,
+        key: camera("focal_distance"),
+        access: Access::Single(field!(estimator.lens.focal_distance), [MIN_LENGTH, MAX_LENGTH]),
+        row: Some(Row {
+            part: Part::Top,
+            label: "Focal plane distance",
+            help: "How far away the plane lies in which everything is sharp, in scene units.",
+            shown: has_lens,
+            widget: Widget::Slider(Slider {
+                range: focal_distances,
+                format: |_| "%.4g".into(),
+                ..LOGARITHMIC
+            }),
+        }),
+    },
+    Setting {
+        flag: "hole-diameter",
+        letter: None,
+        value_name: "L",
+        help: "Diameter of the hole, with --camera hole, in scene units",
+        default: "the scene's, or 0.3 mm",
+        role: Role::Estimator,
+        key: Some(Key {
+            table: "camera",
+            name: "hole_diameter",
+            otherwise: &[],
+            rests_on: &["vfov", "metres-per-unit"],
+        }),
+        access: Access::Single(field!(estimator.hole.diameter), [0.0, MAX_LENGTH]),
+        row: Some(Row {
+            part: Part::Top,
+            label: "Hole diameter",
+            help: "How wide the hole is, in scene units. The picture of a far point is as wide.",
+            shown: has_hole,
+            widget: Widget::Slider(Slider {
+                range: hole_diameters,
+                format: |_| "%.4g".into(),
+                ..Slider { rounds: false, ..EVEN }
+            }),
+        }),
+    },
+    Setting {
+        flag: "upright",
+        letter: None,
+        value_name: "true|false",
+        help: "Turn the picture of a hole upright: on the film it is upside down",
+        default: "the scene's, or false",
+        role: Role::Estimator,
+        key: camera("upright"),
+        access: Access::Switch(field!(estimator.hole.upright)),
+        row: Some(Row {
+            part: Part::Top,
+            label: "Upright",
+            help: "On the film the picture is upside down. This turns it, as you turn a slide.",
+            shown: has_hole,
+            widget: Widget::Box,
+        }),
+    },
+];
