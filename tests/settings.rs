@@ -4,6 +4,7 @@ mod common;
 
 use common::run;
 use std::path::Path;
+use thinlens::error::Error;
 use thinlens::output;
 use thinlens::scene::{self, SceneRef};
 use thinlens::settings::{Access, Called, Changes, Role, Setting, Settings, Value, Widget, list};
@@ -128,6 +129,65 @@ fn a_value_out_of_range_is_refused_by_the_name_that_the_user_gave() {
     assert!(refused > 50, "only {refused} values were tried");
 }
 
+/// A scene file with every key that has a value in these settings, but for one line in place of another key's.
+fn scene_with(settings: &Settings, instead_of: &str, line: &str) -> String {
+    let mut tables = [("", String::new()), ("camera", "[camera]\n".into()), ("view", "[view]\n".into())];
+    for setting in list::own() {
+        let Some(key) = &setting.key else { continue };
+        let value = match setting.get(settings) {
+            Value::Single(number) => format!("{number:?}"),
+            Value::Double(number) => format!("{number:?}"),
+            Value::Whole(number) => number.to_string(),
+            Value::Switch(is) => is.to_string(),
+            Value::Vector(place) => format!("{:?}", place.to_array()),
+            Value::Size(size) => format!("{size:?}"),
+            Value::Name("none") | Value::File(_) => continue,
+            Value::Name(name) => format!("{name:?}"),
+        };
+        let line = if key.name == instead_of { line.into() } else { format!("{} = {value}", key.name) };
+        let table = tables.iter_mut().find(|(name, _)| *name == key.table).expect("a table");
+        table.1 += &format!("{line}\n");
+    }
+    tables.map(|(_, text)| text).concat()
+}
+
+/// Catches a key of a scene file whose range is not looked at, or whose error has another line or another name.
+#[test]
+fn a_value_out_of_range_in_a_scene_file_is_refused_by_its_key() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (plain, file) = (plain(), folder.path().join("some.toml"));
+    let load = |text: &str| {
+        std::fs::write(&file, text).expect("a file");
+        scene::load(&file)
+    };
+    load(&scene_with(&plain, "", "")).expect("a scene");
+    let mut refused = 0;
+    for setting in list::all() {
+        let Some(key) = &setting.key else { continue };
+        let instead_of = if setting.flag == "f-number" { "lens_diameter" } else { key.name };
+        for word in out_of_range(setting) {
+            let value = match setting.access {
+                Access::Size(..) => format!("[{}]", word.replace('x', ", ")),
+                Access::Vector(..) => format!("[{}]", word.to_lowercase()),
+                _ => word.to_lowercase(),
+            };
+            let line = format!("{} = {value}", key.name);
+            let text = scene_with(&plain, instead_of, &line);
+            let expected = text.lines().position(|other| other == line).expect("the line") + 1;
+            match load(&text) {
+                Err(Error::Scene { line, message, .. }) => {
+                    assert_eq!(line, expected, "{}: {message}", key.name);
+                    let begins = message.starts_with(&format!("{} is ", key.name));
+                    assert!(begins && message.contains("must be from"), "{value}: {message}");
+                }
+                other => panic!("{} = {value}: {other:?}", key.name),
+            }
+            refused += 1;
+        }
+    }
+    assert!(refused > 40, "only {refused} values were tried");
+}
+
 /// Catches an option that is missing in the help of a command, and one that is shown where it does nothing.
 #[test]
 fn each_setting_has_an_option_and_those_that_do_nothing_are_not_shown() {
@@ -245,7 +305,7 @@ fn tables() -> String {
     let mut text = String::new();
     for group in &list::GROUPS {
         text += &format!(
-            "\n## {}\n\n| option | meaning | unless it is given | range | in a scene file | in the viewer |\n",
+            "\n## {}\n\n| option | meaning | default | range | in a scene file | in the viewer |\n",
             group.title
         );
         text += "|---|---|---|---|---|---|\n";

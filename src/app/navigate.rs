@@ -90,7 +90,7 @@ impl Navigate {
 fn place(camera: &mut Camera, eye: DVec3, look_at: DVec3) {
     let moved = Camera { eye, look_at, ..*camera }.with_few_digits();
     let within = |point: DVec3| point.abs().max_element() <= f64::from(MAX_LENGTH);
-    if within(moved.eye) && within(moved.look_at) && moved.fault().is_none() {
+    if within(moved.eye) && within(moved.look_at) && moved.has_frame() {
         *camera = moved;
     }
 }

@@ -94,15 +94,20 @@ impl Camera {
         0.5 * f64::from(height) / (0.5 * self.vfov_radians).tan()
     }
 
-    /// The reason why these values give no frame, if there is one.
-    pub fn fault(&self) -> Option<&'static str> {
+    /// Whether a frame can be made of it.
+    pub fn has_frame(&self) -> bool {
+        self.fault(["", "", ""]).is_none()
+    }
+
+    /// The reason why these values give no frame, if there is one. The names are what the user calls the places.
+    pub fn fault(&self, [eye, look_at, up]: [&str; 3]) -> Option<String> {
         let axis = self.eye - self.look_at;
         if axis.length_squared() == 0.0 {
-            return Some("eye and look_at are the same point");
+            return Some(format!("{eye} and {look_at} are the same point"));
         }
         let across = self.up.cross(axis.normalize()).length();
         (across <= 1e-9 * self.up.length() || self.up == DVec3::ZERO)
-            .then_some("up points along the line of sight; choose another direction for it")
+            .then(|| format!("{up} points along the line of sight; choose another direction for it"))
     }
 }
 

@@ -31,7 +31,7 @@ pub use material::{Checker, Material};
 pub use optics::{FRAME_HEIGHT_MM, vfov_of_focal_length};
 pub use overlay::{FullScale, OVERLAYS, Overlay, Source};
 pub use preset::{PRESETS, Preset};
-pub use range::in_range;
+pub use range::*;
 pub use shape::*;
 pub use view::View;
 
@@ -48,11 +48,6 @@ pub const MAX_BOUNCES: u32 = 64;
 pub const MIN_LENGTH: f32 = 1e-6;
 /// The largest length, colour or radiance: squares of cross products still fit in f32.
 pub const MAX_LENGTH: f32 = 1e9;
-/// The smallest and largest vertical field of view, in degrees.
-pub const VFOV_DEGREES: std::ops::RangeInclusive<f64> = 0.01..=175.0;
-
-/// The shortest and longest scene unit, in metres.
-pub const METRES_PER_UNIT: std::ops::RangeInclusive<f64> = 1e-15..=1e15;
 
 /// A scene: shapes, materials, lights, and the camera and picture size it was composed for.
 #[derive(Debug)]

@@ -25,16 +25,6 @@ use std::path::Path;
 pub const MAX_SAMPLES: u32 = 1 << 24;
 /// The narrowest and widest jitter, in pixels. Accumulation looks at `ceil(jitter / 2 - 1 / 2)` pixels around.
 pub const JITTERS: [f32; 2] = [0.0, 15.0];
-/// The smallest and largest f-number.
-pub const F_NUMBERS: [f64; 2] = [0.01, 1e6];
-/// The shortest and longest time that the shutter can be open, in seconds.
-pub const SHUTTERS: [f32; 2] = [1e-6, 1e4];
-/// The slowest and fastest film.
-pub const ISOS: [f32; 2] = [0.1, 1e7];
-/// The smallest and largest circle of confusion that can count as sharp, in pixels.
-pub const TOLERANCES: [f32; 2] = [0.01, 1000.0];
-/// The strongest exposure either way, in stops.
-pub const EXPOSURES: [f32; 2] = [-20.0, 20.0];
 /// Samples per pixel of a headless picture, unless another number is asked for.
 pub const DEFAULT_SAMPLES: u32 = 64;
 /// Jitter in pixels across: a sample stays within its pixel.
@@ -299,10 +289,13 @@ impl Settings {
         if needs_moments(self.view.overlay) && !self.estimator.has_moments() {
             return wrong("the error is not known where no moments are kept".into());
         }
-        if let Some(fault) = camera.fault() {
+        let names = |flags: [&str; 3]| flags.map(|flag| list::setting(flag).name(called));
+        let [eye, look_at, up] = &names(["eye", "look-at", "up"]);
+        if let Some(fault) = camera.fault([eye, look_at, up]) {
             return wrong(format!("the camera has no view: {fault}"));
         }
-        if let Some(fault) = aperture.fault() {
+        let [blades, cats_eye, image] = &names(["blades", "cats-eye", "aperture-image"]);
+        if let Some(fault) = aperture.fault([blades, cats_eye, image]) {
             return wrong(fault);
         }
         // Chance lands more than its share in a pixel: by 16 standard deviations, never that many.

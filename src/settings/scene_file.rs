@@ -2,9 +2,9 @@
 
 use super::arguments::quoted;
 use super::setting::NONE;
-use super::{EXPOSURES, Key, Role, Setting, Settings, Value, list};
+use super::{Key, Role, Setting, Settings, Value, list};
 use crate::error::{Error, Result};
-use crate::scene::{self, Loaded, SceneRef, in_range};
+use crate::scene::{self, EXPOSURES, Loaded, SceneRef, in_range};
 use std::path::{Path, PathBuf};
 use toml_edit::{Array, DocumentMut, Item, TableLike, value};
 

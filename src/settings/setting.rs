@@ -2,7 +2,7 @@
 
 use super::Settings;
 use crate::error::{Error, Result};
-use crate::scene::{ApertureImage, in_range};
+use crate::scene::{ApertureImage, in_range, in_range_or_zero};
 use glam::DVec3;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -254,8 +254,8 @@ impl Setting {
             }
             (Access::Double(_, range), Value::Double(value)) => in_range(*value, *range),
             (Access::Whole(_, range), Value::Whole(value)) => in_range(*value, *range),
-            (Access::WholeOrZero(_, range, zero), Value::Whole(value)) if *value > 0 => {
-                in_range(*value, *range).map_err(|fault| format!("{fault}, or 0 for {zero}"))
+            (Access::WholeOrZero(_, range, zero), Value::Whole(value)) => {
+                in_range_or_zero(*value, *range, zero)
             }
             (Access::Vector(_, range), Value::Vector(value)) => {
                 value.to_array().into_iter().try_for_each(|part| in_range(part, *range))

@@ -1,7 +1,7 @@
 //! The rows of the panel that change settings, as the list of settings has them.
 
 use super::widgets::{Layout, combo, named, note_item, tooltip};
-use crate::scene::MAX_LENGTH;
+use crate::scene::PLACES;
 use crate::settings::{Access, Choice, Field, Part, Row, Setting, Settings, Slider, Widget, list};
 use glam::DVec3;
 use imgui::{Drag, SliderFlags, Ui};
@@ -118,14 +118,14 @@ fn drag(ui: &Ui, id: String, field: &Field<DVec3>, settings: &mut Settings) {
     let before = settings.estimator.camera;
     let mut parts = (field.get)(settings).to_array();
     let changed = Drag::new(id)
-        .range(-f64::from(MAX_LENGTH), f64::from(MAX_LENGTH))
+        .range(PLACES[0], PLACES[1])
         .speed((0.002 * before.eye.distance(before.look_at)) as f32)
         .display_format("%.4g")
         .flags(SliderFlags::NO_ROUND_TO_FORMAT | SliderFlags::ALWAYS_CLAMP)
         .build_array(ui, &mut parts);
     if changed {
         (field.set)(settings, DVec3::from_array(parts));
-        if settings.estimator.camera.fault().is_some() {
+        if !settings.estimator.camera.has_frame() {
             settings.estimator.camera = before;
         }
     }

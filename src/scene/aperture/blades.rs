@@ -3,9 +3,6 @@
 use super::Kind;
 use std::f64::consts::PI;
 
-/// How many blades an iris can have.
-pub const BLADES: std::ops::RangeInclusive<u32> = 3..=16;
-
 /// An iris of blades, whose corners lie on the rim of the opening. See [`super::Aperture`] for its numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Blades {

@@ -1,10 +1,11 @@
 //! The table `[camera]`.
 
 use super::fault::{Fault, fault, named};
-use super::number::{NonNegative, Positive, Vector};
+use super::number::{Positive, Vector, ranged};
 use crate::scene::{
-    Aperture, ApertureImage, Camera, CameraModel, DEFAULT_SHUTTER, Hole, Lens, METRES_PER_UNIT, PRESETS,
-    VFOV_DEGREES, View,
+    ANAMORPHICS, Aperture, ApertureImage, BLADES, CATS_EYES, Camera, CameraModel, DEFAULT_SHUTTER, DIAMETERS,
+    F_NUMBERS, FOCAL_DISTANCES, Hole, ISOS, Lens, METRES_PER_UNIT, PRESETS, ROTATIONS, ROUNDNESSES, SHUTTERS,
+    VFOV_DEGREES, View, in_range, in_range_or_zero,
 };
 use glam::DVec3;
 use serde::Deserialize;
@@ -19,33 +20,28 @@ pub(super) struct CameraTable {
     #[serde(default = "upwards")]
     up: Vector,
     preset: Option<Spanned<String>>,
-    vfov_degrees: Option<Positive>,
+    vfov_degrees: Option<Spanned<f64>>,
     view_distance: Option<Positive>,
     pixel_size: Option<Positive>,
-    #[serde(default = "unit")]
-    metres_per_unit: f64,
+    metres_per_unit: Option<Spanned<f64>>,
     model: Option<Spanned<String>>,
-    lens_diameter: Option<NonNegative>,
-    f_number: Option<Positive>,
-    focal_distance: Positive,
-    hole_diameter: Option<NonNegative>,
+    lens_diameter: Option<Spanned<f32>>,
+    f_number: Option<Spanned<f64>>,
+    focal_distance: Spanned<f32>,
+    hole_diameter: Option<Spanned<f32>>,
     #[serde(default)]
     upright: bool,
-    blades: Option<u32>,
-    blade_rotation_degrees: Option<f32>,
-    roundness: Option<f32>,
-    anamorphic: Option<f32>,
-    cats_eye: Option<f32>,
+    blades: Option<Spanned<u32>>,
+    blade_rotation_degrees: Option<Spanned<f32>>,
+    roundness: Option<Spanned<f32>>,
+    anamorphic: Option<Spanned<f32>>,
+    cats_eye: Option<Spanned<f32>>,
     aperture_image: Option<Spanned<String>>,
-    shutter: Option<Positive>,
-    iso: Option<Positive>,
+    shutter: Option<Spanned<f32>>,
+    iso: Option<Spanned<f32>>,
 }
 
 const NEEDS_VFOV: &str = "the camera needs either vfov_degrees, or view_distance and pixel_size, or a preset that has a field of view";
-
-fn unit() -> f64 {
-    1.0
-}
 
 fn upwards() -> Vector {
     Vector(DVec3::Y)
@@ -71,18 +67,15 @@ impl Shot {
         let preset = preset
             .map(|name| named(&PRESETS.map(|preset| (preset.name, preset)), name, "preset"))
             .transpose()?;
-        if !METRES_PER_UNIT.contains(&table.metres_per_unit) {
-            let (low, high) = (METRES_PER_UNIT.start(), METRES_PER_UNIT.end());
-            let message =
-                format!("metres_per_unit is {}, but must be from {low:e} to {high:e}", table.metres_per_unit);
-            return Err(fault(span, &message));
-        }
-
+        let metres_per_unit = table.metres_per_unit.as_ref();
+        let metres_per_unit = ranged("metres_per_unit", metres_per_unit, METRES_PER_UNIT)?.unwrap_or(1.0);
         let (eye, look_at, up) = (table.eye.0, table.look_at.0, table.up.0);
-        let mut camera =
-            Camera { eye, look_at, up, vfov_radians: f64::NAN, metres_per_unit: table.metres_per_unit };
+        let mut camera = Camera { eye, look_at, up, vfov_radians: f64::NAN, metres_per_unit };
         let mut model = CameraModel::default();
-        let mut lens = Lens { diameter: f32::NAN, focal_distance: table.focal_distance.f32() };
+        let focal_distance = &table.focal_distance;
+        ranged("focal_distance", Some(focal_distance), FOCAL_DISTANCES)?;
+        let mut lens = Lens { diameter: f32::NAN, focal_distance: *focal_distance.get_ref() };
+        ranged("vfov_degrees", table.vfov_degrees.as_ref(), VFOV_DEGREES)?;
         let vfov_radians = table.vfov_radians(size).map_err(|message| fault(span, message))?;
         if let Some(preset) = preset {
             preset.apply(&mut camera, &mut model, &mut lens);
@@ -92,36 +85,33 @@ impl Shot {
         if camera.vfov_radians.is_nan() {
             return Err(fault(span, NEEDS_VFOV));
         }
-        if !VFOV_DEGREES.contains(&camera.vfov_radians.to_degrees()) {
-            let degrees = camera.vfov_radians.to_degrees();
-            let (low, high) = (VFOV_DEGREES.start(), VFOV_DEGREES.end());
-            let message =
-                format!("a vertical field of view of {degrees} degrees must be from {low} to {high}");
+        // Of the view's distance, or of a known lens.
+        in_range(camera.vfov_radians.to_degrees(), VFOV_DEGREES)
+            .map_err(|wrong| fault(span, &format!("the vertical field of view in degrees {wrong}")))?;
+        if let Some(message) = camera.fault(["eye", "look_at", "up"]) {
             return Err(fault(span, &message));
-        }
-        if let Some(message) = camera.fault() {
-            return Err(fault(span, message));
         }
         if let Some(name) = &table.model {
             model = named(&CameraModel::NAMES, name, "camera model")?;
         }
-        match (&table.lens_diameter, &table.f_number) {
-            (Some(diameter), None) => lens.diameter = diameter.0,
-            (None, Some(f_number)) => lens.diameter = camera.diameter_of_f_number(f_number.f64()) as f32,
+        let diameter = ranged("lens_diameter", table.lens_diameter.as_ref(), DIAMETERS)?;
+        match (diameter, ranged("f_number", table.f_number.as_ref(), F_NUMBERS)?) {
+            (Some(diameter), None) => lens.diameter = diameter,
+            (None, Some(f_number)) => lens.diameter = camera.diameter_of_f_number(f_number) as f32,
             (None, None) if model == CameraModel::Pinhole && lens.diameter.is_nan() => lens.diameter = 0.0,
             (None, None) if !lens.diameter.is_nan() => {}
             _ => return Err(fault(span, "the camera needs either lens_diameter, f_number or a preset")),
         }
-        let hole = table.hole_diameter.as_ref();
-        let diameter = hole.map_or(camera.default_hole_diameter(), |diameter| diameter.0);
+        let hole = ranged("hole_diameter", table.hole_diameter.as_ref(), DIAMETERS)?;
+        let diameter = hole.unwrap_or(camera.default_hole_diameter());
         Ok(Self {
             camera,
             model,
             lens,
             hole: Hole { diameter, upright: table.upright },
             aperture: aperture(span, folder)?,
-            shutter: table.shutter.as_ref().map_or(DEFAULT_SHUTTER, Positive::f32),
-            iso: table.iso.as_ref().map_or(View::default().iso, Positive::f32),
+            shutter: ranged("shutter", table.shutter.as_ref(), SHUTTERS)?.unwrap_or(DEFAULT_SHUTTER),
+            iso: ranged("iso", table.iso.as_ref(), ISOS)?.unwrap_or(View::default().iso),
         })
     }
 }
@@ -131,7 +121,7 @@ impl CameraTable {
     fn vfov_radians(&self, size: [u32; 2]) -> Result<Option<f64>, &'static str> {
         match (&self.vfov_degrees, &self.view_distance, &self.pixel_size) {
             (None, None, None) => Ok(None),
-            (Some(degrees), None, None) => Ok(Some(degrees.f64().to_radians())),
+            (Some(degrees), None, None) => Ok(Some(degrees.get_ref().to_radians())),
             (None, Some(distance), Some(pixel)) => {
                 let half_height = 0.5 * f64::from(size[1]) * pixel.f64();
                 Ok(Some(2.0 * (half_height / distance.f64()).atan()))
@@ -141,25 +131,29 @@ impl CameraTable {
     }
 }
 
-fn aperture(table: &Spanned<CameraTable>, folder: &Path) -> Result<Aperture, Fault> {
-    let CameraTable {
-        blades, blade_rotation_degrees, roundness, anamorphic, cats_eye, aperture_image, ..
-    } = table.get_ref();
+fn aperture(span: &Spanned<CameraTable>, folder: &Path) -> Result<Aperture, Fault> {
+    let table = span.get_ref();
     let read = |file: &Spanned<String>| {
         let image = ApertureImage::read(&folder.join(file.get_ref()));
         image.map_err(|error| fault(file, &error.to_string()))
     };
+    if let Some(blades) = &table.blades {
+        in_range_or_zero(*blades.get_ref(), BLADES, "a disc")
+            .map_err(|wrong| fault(blades, &format!("blades {wrong}")))?;
+    }
+    let rotation = table.blade_rotation_degrees.as_ref();
     let plain = Aperture::default();
     let aperture = Aperture {
-        blades: blades.unwrap_or(plain.blades),
-        rotation_degrees: blade_rotation_degrees.unwrap_or(plain.rotation_degrees),
-        roundness: roundness.unwrap_or(plain.roundness),
-        anamorphic: anamorphic.unwrap_or(plain.anamorphic),
-        cats_eye: cats_eye.unwrap_or(plain.cats_eye),
-        image: aperture_image.as_ref().map(read).transpose()?,
+        blades: table.blades.as_ref().map_or(plain.blades, |blades| *blades.get_ref()),
+        rotation_degrees: ranged("blade_rotation_degrees", rotation, ROTATIONS)?
+            .unwrap_or(plain.rotation_degrees),
+        roundness: ranged("roundness", table.roundness.as_ref(), ROUNDNESSES)?.unwrap_or(plain.roundness),
+        anamorphic: ranged("anamorphic", table.anamorphic.as_ref(), ANAMORPHICS)?.unwrap_or(plain.anamorphic),
+        cats_eye: ranged("cats_eye", table.cats_eye.as_ref(), CATS_EYES)?.unwrap_or(plain.cats_eye),
+        image: table.aperture_image.as_ref().map(read).transpose()?,
     };
-    match aperture.fault() {
-        Some(message) => Err(fault(table, &message)),
+    match aperture.fault(["blades", "cats_eye", "aperture_image"]) {
+        Some(message) => Err(fault(span, &message)),
         None => Ok(aperture),
     }
 }

@@ -1,9 +1,10 @@
 //! Numbers of the scene file, checked as they are read, so that an error names their line.
 
 use super::fault::{Fault, fault};
-use crate::scene::{MAX_BOUNCES, MAX_EXTENT, MAX_LENGTH, MIN_LENGTH};
+use crate::scene::{MAX_BOUNCES, MAX_EXTENT, MAX_LENGTH, MIN_LENGTH, PLACES, in_range};
 use glam::{DVec3, Vec3};
 use serde::Deserialize;
+use std::fmt::{Display, LowerExp};
 use toml::Spanned;
 
 #[derive(Deserialize)]
@@ -30,6 +31,17 @@ pub(in crate::scene) struct Extent(pub(in crate::scene) u32);
 #[serde(try_from = "i64")]
 pub(in crate::scene) struct Count(pub(in crate::scene) u32);
 
+/// A number that may be left out, held against its range.
+pub(super) fn ranged<T>(key: &str, number: Option<&Spanned<T>>, range: [T; 2]) -> Result<Option<T>, Fault>
+where
+    T: Copy + PartialOrd + Display + LowerExp,
+{
+    let Some(number) = number else { return Ok(None) };
+    let value = *number.get_ref();
+    in_range(value, range).map_err(|wrong| fault(number, &format!("{key} {wrong}")))?;
+    Ok(Some(value))
+}
+
 /// Where a vector may be left out.
 pub(in crate::scene) fn zero() -> Vector {
     Vector(DVec3::ZERO)
@@ -43,17 +55,11 @@ pub(in crate::scene) fn nonzero(vector: &Spanned<Vector>) -> Result<Vec3, Fault>
     }
 }
 
-const LARGEST: f64 = MAX_LENGTH as f64;
-
 impl TryFrom<f64> for Positive {
     type Error = String;
 
     fn try_from(value: f64) -> Result<Self, String> {
-        if (f64::from(MIN_LENGTH)..=LARGEST).contains(&value) {
-            Ok(Self(value))
-        } else {
-            Err(format!("{value} must be from {MIN_LENGTH:e} to {LARGEST:e}"))
-        }
+        in_range(value, [MIN_LENGTH, MAX_LENGTH].map(f64::from)).map(|()| Self(value))
     }
 }
 
@@ -71,11 +77,7 @@ impl TryFrom<f64> for NonNegative {
     type Error = String;
 
     fn try_from(value: f64) -> Result<Self, String> {
-        if (0.0..=LARGEST).contains(&value) {
-            Ok(Self(value as f32))
-        } else {
-            Err(format!("{value} must be from 0 to {LARGEST:e}"))
-        }
+        in_range(value, [0.0, MAX_LENGTH].map(f64::from)).map(|()| Self(value as f32))
     }
 }
 
@@ -83,10 +85,8 @@ impl TryFrom<[f64; 3]> for Vector {
     type Error = String;
 
     fn try_from(value: [f64; 3]) -> Result<Self, String> {
-        match value.iter().find(|value| !(-LARGEST..=LARGEST).contains(*value)) {
-            None => Ok(Self(DVec3::from_array(value))),
-            Some(value) => Err(format!("{value} must be from -{LARGEST:e} to {LARGEST:e}")),
-        }
+        value.into_iter().try_for_each(|part| in_range(part, PLACES))?;
+        Ok(Self(DVec3::from_array(value)))
     }
 }
 
@@ -106,10 +106,8 @@ impl TryFrom<i64> for Extent {
     type Error = String;
 
     fn try_from(value: i64) -> Result<Self, String> {
-        match u32::try_from(value) {
-            Ok(value @ 1..=MAX_EXTENT) => Ok(Self(value)),
-            _ => Err(format!("{value} pixels must be from 1 to {MAX_EXTENT}")),
-        }
+        in_range(value, [1, MAX_EXTENT.into()])?;
+        Ok(Self(value as u32))
     }
 }
 
@@ -117,9 +115,7 @@ impl TryFrom<i64> for Count {
     type Error = String;
 
     fn try_from(value: i64) -> Result<Self, String> {
-        match u32::try_from(value) {
-            Ok(value @ 0..=MAX_BOUNCES) => Ok(Self(value)),
-            _ => Err(format!("{value} bounces must be from 0 to {MAX_BOUNCES}")),
-        }
+        in_range(value, [0, MAX_BOUNCES.into()])?;
+        Ok(Self(value as u32))
     }
 }

@@ -1,17 +1,18 @@
 //! The table `[view]`.
 
 use super::fault::{Fault, named};
-use crate::scene::{Overlay, View};
+use super::number::ranged;
+use crate::scene::{EXPOSURES, Overlay, TOLERANCES, View};
 use serde::Deserialize;
 use toml::Spanned;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ViewTable {
-    exposure: Option<f32>,
+    exposure: Option<Spanned<f32>>,
     exposure_lock: Option<bool>,
     overlay: Option<Spanned<String>>,
-    tolerance: Option<f32>,
+    tolerance: Option<Spanned<f32>>,
 }
 
 /// How the picture is shown at first.
@@ -22,10 +23,11 @@ pub(super) fn view(table: Option<&Spanned<ViewTable>>) -> Result<View, Fault> {
     };
     let overlay = table.overlay.as_ref();
     Ok(View {
-        exposure_stops: table.exposure.unwrap_or(plain.exposure_stops),
+        exposure_stops: ranged("exposure", table.exposure.as_ref(), EXPOSURES)?
+            .unwrap_or(plain.exposure_stops),
         exposure_lock: table.exposure_lock.unwrap_or(plain.exposure_lock),
         overlay: overlay.map(|name| named(&Overlay::NAMES, name, "overlay")).transpose()?,
-        tolerance: table.tolerance.unwrap_or(plain.tolerance),
+        tolerance: ranged("tolerance", table.tolerance.as_ref(), TOLERANCES)?.unwrap_or(plain.tolerance),
         ..plain
     })
 }

@@ -259,7 +259,10 @@ fn not_a_scene(text: &str, error: &toml::de::Error) -> Fault {
         let found = value.map_or_else(String::new, |value| format!("; here is {}", kind_of(value)));
         format!("{key} must be {}{found}", value_of(table, key))
     } else {
-        message.replace('\n', "; ")
+        // Of a number that is out of its range.
+        let key = keys.last().filter(|_| message.starts_with("is "));
+        let words = message.replace('\n', "; ");
+        key.map_or(words.clone(), |key| format!("{key} {words}"))
     };
     Fault { span, message }
 }

@@ -1,7 +1,7 @@
 //! The shape of the opening.
 
 use super::{EVEN, LOGARITHMIC, camera, field, row};
-use crate::scene::BLADES;
+use crate::scene::{ANAMORPHICS, BLADES, CATS_EYES, ROTATIONS, ROUNDNESSES};
 use crate::settings::{Access, Part, Role, Row, Setting, Settings, Slider, Widget};
 
 fn has_iris(settings: &Settings) -> bool {
@@ -25,18 +25,14 @@ pub(super) static APERTURE: &[Setting] = &[
         default: "the scene's, or 0",
         role: Role::Estimator,
         key: camera("blades"),
-        access: Access::WholeOrZero(
-            field!(estimator.aperture.blades),
-            [*BLADES.start(), *BLADES.end()],
-            "a disc",
-        ),
+        access: Access::WholeOrZero(field!(estimator.aperture.blades), BLADES, "a disc"),
         row: Some(Row {
             part: Part::Aperture,
             label: "Blades",
             help: "How many blades the iris has. Their corners lie on the rim of the lens diameter: six let in 83% of the light of a disc.",
             shown: has_iris,
             widget: Widget::Slider(Slider {
-                range: |_| [*BLADES.start() as f32, *BLADES.end() as f32],
+                range: |_| BLADES.map(|count| count as f32),
                 format: |_| "%d".into(),
                 ..EVEN
             }),
@@ -51,7 +47,7 @@ pub(super) static APERTURE: &[Setting] = &[
         default: "the scene's, or 0",
         role: Role::Estimator,
         key: camera("blade_rotation_degrees"),
-        access: Access::Single(field!(estimator.aperture.rotation_degrees), [-360.0, 360.0]),
+        access: Access::Single(field!(estimator.aperture.rotation_degrees), ROTATIONS),
         row: Some(Row {
             part: Part::Aperture,
             label: "Blade rotation",
@@ -72,7 +68,7 @@ pub(super) static APERTURE: &[Setting] = &[
         default: "the scene's, or 0",
         role: Role::Estimator,
         key: camera("roundness"),
-        access: Access::Single(field!(estimator.aperture.roundness), [0.0, 1.0]),
+        access: Access::Single(field!(estimator.aperture.roundness), ROUNDNESSES),
         row: Some(Row {
             part: Part::Aperture,
             label: "Roundness",
@@ -90,7 +86,7 @@ pub(super) static APERTURE: &[Setting] = &[
         default: "the scene's, or 0",
         role: Role::Estimator,
         key: camera("cats_eye"),
-        access: Access::Single(field!(estimator.aperture.cats_eye), [0.0, 1.0]),
+        access: Access::Single(field!(estimator.aperture.cats_eye), CATS_EYES),
         row: Some(Row {
             part: Part::Aperture,
             label: "Rim",
@@ -107,7 +103,7 @@ pub(super) static APERTURE: &[Setting] = &[
         default: "the scene's, or 1",
         role: Role::Estimator,
         key: camera("anamorphic"),
-        access: Access::Single(field!(estimator.aperture.anamorphic), [0.1, 10.0]),
+        access: Access::Single(field!(estimator.aperture.anamorphic), ANAMORPHICS),
         row: row(
             Part::Aperture,
             "Anamorphic",

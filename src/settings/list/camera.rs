@@ -1,10 +1,8 @@
 //! Where the camera stands, and how much it sees.
 
 use super::{EVEN, camera, field, row};
-use crate::scene::{MAX_LENGTH, METRES_PER_UNIT, PRESETS, Preset, VFOV_DEGREES};
+use crate::scene::{METRES_PER_UNIT, PLACES, PRESETS, Preset, VFOV_DEGREES};
 use crate::settings::{Access, Choice, Field, Key, Part, Role, Setting, Slider, Widget};
-
-const PLACES: [f64; 2] = [-(MAX_LENGTH as f64), MAX_LENGTH as f64];
 
 /// Where the camera stands. A known lens comes before what can be changed of it.
 pub(super) static CAMERA: &[Setting] = &[
@@ -54,10 +52,7 @@ pub(super) static CAMERA: &[Setting] = &[
         default: "the scene's",
         role: Role::Estimator,
         key: camera("metres_per_unit"),
-        access: Access::Double(
-            field!(estimator.camera.metres_per_unit),
-            [*METRES_PER_UNIT.start(), *METRES_PER_UNIT.end()],
-        ),
+        access: Access::Double(field!(estimator.camera.metres_per_unit), METRES_PER_UNIT),
         row: None,
     },
     Setting {
@@ -109,14 +104,14 @@ pub(super) static CAMERA: &[Setting] = &[
                 get: |settings| settings.estimator.camera.vfov_degrees(),
                 set: |settings, degrees| settings.estimator.camera.vfov_radians = degrees.to_radians(),
             },
-            [*VFOV_DEGREES.start(), *VFOV_DEGREES.end()],
+            VFOV_DEGREES,
         ),
         row: row(
             Part::Viewpoint,
             "Field of view",
             "The angle from the lower to the upper edge. The f-number changes with it: the film moves, and the lens stays as wide.",
             Widget::Slider(Slider {
-                range: |_| [*VFOV_DEGREES.start() as f32, *VFOV_DEGREES.end() as f32],
+                range: |_| VFOV_DEGREES.map(|end| end as f32),
                 format: |_| "%.1f degrees".into(),
                 ..Slider { rounds: false, ..EVEN }
             }),

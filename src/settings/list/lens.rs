@@ -1,9 +1,9 @@
 //! What forms the picture: the lens or the hole.
 
 use super::{EVEN, LOGARITHMIC, by_name, camera, field, row};
-use crate::scene::{CameraModel, MAX_LENGTH, MIN_LENGTH};
+use crate::scene::{CameraModel, DIAMETERS, F_NUMBERS, FOCAL_DISTANCES, MAX_LENGTH, MIN_LENGTH};
 use crate::settings::{
-    Access, Choice, F_NUMBERS, Field, Key, Part, Role, Row, Setting, Settings, Slider, Widget, name_of, named,
+    Access, Choice, Field, Key, Part, Role, Row, Setting, Settings, Slider, Widget, name_of, named,
 };
 
 /// The cameras, as people know them.
@@ -71,7 +71,7 @@ pub(super) static LENS: &[Setting] = &[
             otherwise: &[],
             rests_on: &["vfov", "metres-per-unit"],
         }),
-        access: Access::Single(field!(estimator.lens.diameter), [0.0, MAX_LENGTH]),
+        access: Access::Single(field!(estimator.lens.diameter), DIAMETERS),
         row: Some(Row {
             part: Part::Top,
             label: "Lens diameter",
@@ -120,7 +120,7 @@ pub(super) static LENS: &[Setting] = &[
         default: "the scene's",
         role: Role::Estimator,
         key: camera("focal_distance"),
-        access: Access::Single(field!(estimator.lens.focal_distance), [MIN_LENGTH, MAX_LENGTH]),
+        access: Access::Single(field!(estimator.lens.focal_distance), FOCAL_DISTANCES),
         row: Some(Row {
             part: Part::Top,
             label: "Focal plane distance",
@@ -146,7 +146,7 @@ pub(super) static LENS: &[Setting] = &[
             otherwise: &[],
             rests_on: &["vfov", "metres-per-unit"],
         }),
-        access: Access::Single(field!(estimator.hole.diameter), [0.0, MAX_LENGTH]),
+        access: Access::Single(field!(estimator.hole.diameter), DIAMETERS),
         row: Some(Row {
             part: Part::Top,
             label: "Hole diameter",

@@ -1,11 +1,9 @@
 //! How bright the picture is, and what is shown of it.
 
 use super::{EVEN, LOGARITHMIC, camera, field, row, view};
-use crate::scene::{OVERLAYS, Overlay};
+use crate::scene::{EXPOSURES, ISOS, OVERLAYS, Overlay, SHUTTERS, TOLERANCES};
 use crate::settings::setting::NONE;
-use crate::settings::{
-    Access, Choice, EXPOSURES, Field, ISOS, Part, Role, SHUTTERS, Setting, Slider, TOLERANCES, Widget, named,
-};
+use crate::settings::{Access, Choice, Field, Part, Role, Setting, Slider, Widget, named};
 use std::borrow::Cow;
 
 /// What is typed into a slider is read by the first part of what it shows: a fraction would be read up to its bar.
