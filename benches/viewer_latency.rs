@@ -21,11 +21,11 @@ const CONTROL: &str = "Focal plane distance";
 const EVENT_EVERY: Duration = Duration::from_millis(8);
 const LOOK_EVERY: Duration = Duration::from_millis(1);
 const SWEEPS: i32 = 4;
-/// Of the slider's width: where a sweep turns.
+/// Where a sweep turns, as shares of the slider's width.
 const TURNS: [f64; 2] = [0.1, 0.9];
 /// Right after a turn the knob may still be on its way to it, on the same pixels.
 const UNCLEAR: Duration = Duration::from_millis(300);
-/// What the viewer is held against.
+/// The reference that the viewer is compared with.
 const TARGET: Duration = Duration::from_millis(33);
 
 /// A position of the pointer or of the knob along the slider, in pixels of the screen.

@@ -128,7 +128,7 @@ pub mod aperture {
         BLADES,
         /// A disc that is cut off towards the picture's corners.
         CATS_EYE,
-        /// As bright as an image.
+        /// Light comes in where an image is bright.
         IMAGE,
     }
 }

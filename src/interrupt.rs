@@ -6,7 +6,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 type Removal = Box<dyn FnOnce() + Send>;
 
-/// In the order in which they were made.
+/// The files to remove, in the order in which they were made.
 static LEFTOVERS: Mutex<BTreeMap<u64, Removal>> = Mutex::new(BTreeMap::new());
 
 /// Something that is removed should a signal end the program while this lives.

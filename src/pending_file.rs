@@ -19,15 +19,15 @@ pub struct PendingFile {
 }
 
 enum Place {
-    /// A file of its own, until it is whole.
+    /// A new file, which replaces the target once it is whole.
     Part { part: PathBuf, target: PathBuf, file: File, _leftover: Leftover },
-    /// What is there takes what is written: a pipe, a device, standard output.
+    /// A pipe, a device or standard output, which takes the bytes as they are written.
     Stream(File),
 }
 
-/// What a path leads to, by way of links.
+/// What a path leads to, with its links followed.
 enum Destination {
-    /// A file, if there is one already with what is known of it.
+    /// A file, and the metadata of the one that is there already.
     File(PathBuf, Option<Metadata>),
     Stream(File),
 }
@@ -45,7 +45,7 @@ impl PendingFile {
             Destination::File(target, old) => (target, old),
         };
         if let Some(old) = &old {
-            // A rename would not ask for this right.
+            // Renaming over a write-protected file would succeed.
             if old.permissions().readonly() {
                 let reason = "it is write-protected; choose another name, or permit writing (chmod u+w)";
                 return Err(Error::Write { path: path.to_path_buf(), reason: reason.into() });

@@ -31,8 +31,8 @@ fn relative_error(samples: &[f64]) -> f64 {
     (moment / (count * (count - 1.0))).sqrt() / mean.max(0.05)
 }
 
-/// Of the brightest thing that a pixel can meet, what all samples of 3 x 3 pixels miss on average, over the mean or
-/// 0.05: `p (1 - p)^N` is largest where p is `1 / N`, and there about `1 / (e N)`.
+/// The largest share of a pixel's brightness that is lost on average because all samples of 3 x 3 pixels miss the brightest
+/// thing that the pixel can meet. `p (1 - p)^N` is largest where p is `1 / N`, and there it is about `1 / (e N)`.
 fn most_lost(samples: &[f64], brightest: f64) -> f64 {
     let count = samples.len() as f64;
     let mean = samples.iter().sum::<f64>() / count;
@@ -100,7 +100,7 @@ fn compare_counts(gpu: &Gpu, settings: &Settings) -> Result<String> {
 fn pixels_stop_where_their_samples_say() {
     let check = |gpu: &Gpu| -> Result<String> {
         let mut figures = Vec::new();
-        // So dark that errors count by the least luminance.
+        // The scene is so dark that errors are measured relative to the least luminance.
         let mut dark = plain_scene_of(EVERYTHING);
         dark.lights.iter_mut().for_each(|light| light.radiance *= 0.02);
         dark.ambient *= 0.02;
@@ -130,8 +130,8 @@ fn pixels_stop_where_their_samples_say() {
 fn pixels_stop_where_little_can_be_lost() {
     let check = |gpu: &Gpu| -> Result<String> {
         let mut figures = Vec::new();
-        // In the corners around the lamp's disc nothing is met, and what may be lost there is little enough before
-        // the end. With cells of one pixel, and of two.
+        // Rays meet nothing in the corners around the lamp's disc, and what may be lost there gets small enough before the
+        // end. The sizes give cells of one pixel, and of two.
         for (size, radiance, threshold) in
             [([64, 48], 1.0, 0.2), ([64, 48], 1.0, 1.0), ([64, 48], 0.25, 0.005), ([161, 119], 1.0, 0.2)]
         {
@@ -159,7 +159,7 @@ fn what_does_not_stop_is_what_it_was() {
         let got = film(&gpu, &settings);
         settings.estimator.noise_threshold = 0.0;
         let mut renderer = gpu.renderer();
-        // As adaptive pictures are cut, between whose batches pixels may stop.
+        // The same batches as in an adaptive picture, between which pixels may stop.
         renderer.set_max_batch(16);
         let uniform = render(&mut renderer, &settings).expect("a film");
         let same = bits(&got).iter().zip(bits(&uniform)).filter(|(got, uniform)| **got == *uniform).count();

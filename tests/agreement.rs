@@ -14,8 +14,8 @@ use thinlens::settings::{Sampler, Settings};
 use thinlens::verify::{Agreement, verify};
 
 /// Catches a shader that strays from the mathematics anywhere on the way from the sampler to the
-/// radiance: every sample of every scene is held against the oracle's. At edges rounding decides what
-/// a ray meets, so a few may differ, and are counted.
+/// radiance: every sample of every scene is compared with the oracle's. At edges rounding decides what
+/// a ray meets, so a few samples may differ, and are counted.
 #[test]
 fn the_device_renders_what_the_oracle_does() {
     let own = [EVERYTHING, ROOM].map(|toml| settings_of(toml, [64, 48], 8));
@@ -105,9 +105,8 @@ radius = 0.35
 material = "lamp"
 "#;
 
-/// A picture by the oracle from random numbers of its own: nothing of the sampler, nor of the map to
-/// the disk, which it takes by Archimedes' square root. `lens` says what becomes of a lens point, given
-/// the film's numbers.
+/// A picture by the oracle with random numbers of its own. It shares neither the sampler nor the map to the disk, for which
+/// it uses the square root of the radius. `lens` maps the numbers of a lens point, given those of the film.
 fn independent_picture(
     settings: &Settings,
     seed: u32,
@@ -130,7 +129,7 @@ fn independent_picture(
     pixels(estimator.size).map(mean).collect()
 }
 
-/// So many of them, by two threads.
+/// The spread of several such pictures, which two threads render.
 fn independent_pictures(settings: &Settings, lens: fn([f64; 2], [f64; 2]) -> [f64; 2]) -> Spread {
     let half =
         |seeds: Range<u32>| seeds.map(|seed| independent_picture(settings, seed, lens)).collect::<Vec<_>>();

@@ -18,9 +18,9 @@ use thinlens::settings::{Estimator, Sampler};
 use thinlens::verify::verify;
 use thinlens::vulkan::{Binding, BindingSet, Buffer, Commands, ComputePipeline, Residence};
 
-/// So many Sobol points: equal parts of the unit square hold equally many of them.
+/// The number of Sobol points. Equal parts of the unit square hold equally many of them.
 const POINTS: u32 = 1 << 16;
-/// Shapes are looked at in so many cells each way.
+/// The number of cells in each direction in which the points of a shape are counted.
 const CELLS: usize = 16;
 
 #[repr(C)]

@@ -80,7 +80,7 @@ fn a_file_keeps_its_rights() {
         fs::write(&path, "old").expect("a file");
         fs::set_permissions(&path, Permissions::from_mode(rights)).expect("rights");
         let pending = PendingFile::create(&path).expect("a file");
-        // Before it is whole, it is nobody else's either.
+        // Others cannot read the part either.
         let part = names(folder.path()).into_iter().find(|name| name.ends_with(".part")).expect("a part");
         let of_part = fs::metadata(folder.path().join(part)).expect("a part").mode() & 0o7777;
         pending.write(b"new").expect("a file");
@@ -191,7 +191,7 @@ fn a_pipe_and_a_device_take_what_is_written() {
     assert!(found.is_sorted(), "{text}");
 }
 
-/// Catches two outputs that are one file, or an output over what it is made from, by whatever name.
+/// Catches two outputs that are the same file, or an output that overwrites an input, under whatever names.
 #[test]
 fn no_file_is_taken_for_another() {
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -248,7 +248,7 @@ fn no_file_is_taken_for_another() {
         (&vec!["bench", "own.toml", "--runs", "1"], &["--json=./own.toml"]),
     ] {
         let outcome = run(folder, &[arguments, more].concat());
-        // A mesh under a scene's name is none, and so is not written either.
+        // A mesh that has the name of a scene file is refused as a scene, so nothing is written either.
         let wrong_use = outcome.code == 2 || outcome.stderr.contains("mesh.toml:1");
         assert!(wrong_use && outcome.stderr.lines().count() == 1, "{more:?}: {}", outcome.stderr);
         assert!(read() == before, "{arguments:?} {more:?} writes over a file");

@@ -164,7 +164,7 @@ const LIT: &str = "[camera]\neye = [0, 0, 9]\nlook_at = [0, 0, 0]\nvfov_degrees 
                    focal_distance = 9\n[ambient]\nradiance = 1\n[[directional]]\ndirection = [1, 2, 3]\n\
                    radiance = 2\n[matte.m]\nka = 0.5\nkd = 0.5\ncolor = [1, 0.9, 0.8]\n";
 
-/// So many spheres in a grid.
+/// A grid of spheres.
 fn spheres(count: usize) -> Settings {
     let sphere = |number: usize| {
         let (x, y, z) =
@@ -174,7 +174,7 @@ fn spheres(count: usize) -> Settings {
     settings_of(&(LIT.to_owned() + &(0..count).map(sphere).collect::<String>()), [24, 18], 20)
 }
 
-/// So many planes, one behind the other.
+/// Planes, one behind the other.
 fn planes(count: usize) -> Settings {
     let plane = |number: usize| {
         format!("[[plane]]\npoint = [0, 0, -{number}]\nnormal = [0, 0, 1]\nmaterial = \"m\"\n")

@@ -231,7 +231,7 @@ fn a_saved_scene_has_the_settings_it_was_saved_with() {
         let scene = SceneRef::new(scene::load(&name).expect("a scene"));
         let plain = Settings::of_scene(scene.clone());
         for round in 0..=40 {
-            // In some rounds only some things change, for there are keys that follow from others.
+            // In some rounds only some settings change, for some keys follow from others.
             let mut settings = changed(&scene, &mut random);
             let (now, was) = (&mut settings.estimator, &plain.estimator);
             let mut keep = || round > 9 && random.bool();
@@ -304,7 +304,7 @@ fn what_a_scene_file_says_is_what_counts() {
     let saved = load("deep/saved.toml");
     assert_eq!((saved.view, saved.estimator.lens), (settings.view, settings.estimator.lens));
 
-    // In the file the lens is another one by now, and what is saved is what was there when it was loaded.
+    // The file has another lens by now, but the lens that was loaded is saved.
     std::fs::write(path("own.toml"), own.replace("lens_diameter = 0.5", "lens_diameter = 2"))
         .expect("a scene");
     output::save_scene(&settings, &path("saved.toml")).expect("a saved scene");

@@ -1,5 +1,4 @@
-//! The resolve pass against pictures that were looked at. Only this pass: what comes before it is
-//! held against the oracle.
+//! The resolve pass against pictures that were looked at. The passes before it are compared with the oracle.
 //!
 //! A picture that is missing is a failure. After a wanted change, look at what
 //! `THINLENS_BLESS=1 cargo test --release --test golden` writes into `tests/golden`, and commit it.
@@ -108,7 +107,7 @@ fn cases() -> Vec<Case> {
     let garbage = [f32::NAN, 1e9, -1e9, 0.0];
     // Where a pixel has no sample its colours may hold anything.
     let holes = film(extent, |x, y| if (x * 7 + y * 13) % 11 < 4 { garbage } else { bands(x, y) });
-    // In the corner they are farther apart than the search goes.
+    // In the corner, samples are farther apart than the search reaches.
     let islands =
         film(
             extent,

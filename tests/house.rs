@@ -197,7 +197,7 @@ fn arrows_between(modules: &BTreeMap<String, String>) -> BTreeMap<String, BTreeS
                 used.insert(at);
             }
         }
-        // And what its own children are: what uses it uses them.
+        // A module uses its own children: whoever uses the module uses them.
         let is_child = |of: &&String| {
             of.strip_prefix(module.as_str())
                 .is_some_and(|rest| rest.starts_with('/') && !rest[1..].contains('/'))
@@ -233,7 +233,7 @@ fn circles(arrows: &BTreeMap<String, BTreeSet<String>>) -> BTreeSet<Vec<String>>
     arrows.keys().filter(on_circle).map(|module| same(&module)).collect()
 }
 
-/// Catches modules that use one another, straight or by way of others: none of them can be read, tested or moved
+/// Catches modules that use one another, directly or through others: none of them can be read, tested or moved
 /// alone.
 #[test]
 fn modules_form_no_circle() {

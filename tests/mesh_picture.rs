@@ -159,7 +159,7 @@ fn light_and_mirrors_see_the_shading_normal_above_the_surface() {
         ("0 1 0", 0.8_f64),
         // Turned by 10 degrees: the mirrored ray turns by 20.
         ("0.173648178 0.984807753 0", (53.130_102_f64 - 20.0).to_radians().sin()),
-        // By 30: it would lead below, and leads above by as much.
+        // Turned by 30 degrees: the mirrored ray would go below the surface, and is turned above it by as much.
         ("0.5 0.866025404 0", (60.0 - 53.130_102_f64).to_radians().sin()),
     ] {
         let got = radiance(&floor([normal; 3], sky), slanted, 1);

@@ -51,8 +51,8 @@ fn reference(name: &str, size: [u32; 2]) -> Result<Spread> {
 
 /// Catches a mistake that the shaders and the oracle share, of the lens, the field of view, the
 /// film's orientation, diffuse reflection, shadows or checkers: in every channel of every pixel the
-/// two renderers' means agree but for their noise, with no share of failures allowed, and so does the
-/// mean over the picture.
+/// two renderers' means agree within their noise, without any exception, and so do the means over
+/// the picture.
 #[test]
 fn mitsuba_renders_the_same_pictures() {
     let check = |gpu: &Gpu| -> Result<String> {

@@ -28,7 +28,7 @@ fn everything_moves() -> Settings {
     settings
 }
 
-/// So many shapes that they go into a tree, which move this way and that.
+/// Shapes that move in many directions, enough of them for a tree.
 fn a_moving_crowd() -> Settings {
     let mut toml = String::from(
         "[camera]\neye = [0, 2, 9]\nlook_at = [0, 0, 0]\nvfov_degrees = 45\nlens_diameter = 0.3\n\
@@ -163,7 +163,7 @@ fn brightness_goes_with_aperture_time_and_film() {
     near(settings.exposure(), 0.5);
     settings.view.exposure_stops = 3.0;
     near(settings.exposure(), 4.0);
-    // As much light as through the scene's own lens: a pinhole has no area to go by.
+    // A pinhole has no area, so it counts as the scene's own lens.
     settings.estimator.lens.diameter = 0.0;
     near(settings.exposure(), 16.0);
     settings.estimator.model = CameraModel::Hole;

@@ -97,8 +97,8 @@ fn what_few_rays_meet_keeps_its_light() {
     prove(check, &["loses_what_it_has_not_met", "any_threshold"]);
 }
 
-/// The most by which the oracle's samples exceed what they are reckoned with, as a ratio, in their start pixels and
-/// in those that they land in.
+/// The largest ratio of a sample of the oracle to the brightness that the renderer expects at most, in the pixels that
+/// samples start from and in those that they land in.
 fn excess(estimator: &Estimator) -> f64 {
     let (reference, brightest) = (Reference::new(estimator), Brightest::new(estimator));
     let mut most = 0.0_f64;
@@ -127,7 +127,7 @@ fn nothing_is_brighter_than_it_is_reckoned_with() {
     scenes.extend(nights(0.05).map(|(name, toml)| (name, settings_of(&toml, [64, 48], 16))));
     for (name, settings) in scenes {
         let whole = settings.estimator;
-        // With more than 16384 pixels, cells are of several.
+        // In a picture of more than 16384 pixels a cell has several pixels.
         let large = Estimator { size: [191, 131], ..whole.clone() };
         let hole = |upright| {
             let mut of = Estimator { model: CameraModel::Hole, ..whole.clone() };

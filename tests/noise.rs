@@ -42,7 +42,7 @@ fn blurring_leaves_less_of_blue_noise() {
     let check = |gpu: &Gpu| -> Result<String> {
         let mut renderer = gpu.renderer();
         let mut figures = Vec::new();
-        // At most so much of the blurred error after one sample, with seed 0 and with others, and after four.
+        // The largest shares of the blurred error: after one sample with seed 0, with other seeds, and after four samples.
         let bounds = [
             ("version-4", [0.90, 0.92, 0.96]),
             ("suffern-boxes", [0.76, 0.80, 0.95]),
@@ -124,7 +124,7 @@ fn the_tile_has_no_low_frequencies() {
                     real += value * (TAU * turns).cos();
                     imaginary += value * (TAU * turns).sin();
                 }
-                // Of independent uniform values, with variances of 1/12, a mean power of one.
+                // Independent uniform values have variances of 1/12, and so a mean power of one.
                 let power = 12.0 * (real * real + imaginary * imaginary) / f64::from(TILE * TILE);
                 (sum, count) = (sum + power, count + 1.0);
             }

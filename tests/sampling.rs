@@ -79,7 +79,7 @@ fn lens_points_fill_the_disk_evenly() {
 
 /// Catches one random number used twice: film and lens, one sample and another, one frame's first
 /// sample and the next one's, a pixel and its neighbours (and the same place in the next workgroup),
-/// one seed and the next. Every pair of dimensions is held against independence by its correlation
+/// one seed and the next. Every pair of dimensions is tested for independence by its correlation
 /// and by the evenness of its joint distribution.
 ///
 /// The blue-noise sampler arranges neighbours, and repeats itself from tile to tile: within one tile, and
@@ -132,7 +132,7 @@ fn dimensions_samples_frames_pixels_and_seeds_are_independent() {
                     covariance += (x - 0.5) * (y - 0.5);
                     cells[(x * CELLS as f64) as usize * CELLS + (y * CELLS as f64) as usize] += 1;
                 }
-                // Of independent uniform values, with variances of 1/12.
+                // The variance of a uniform value is 1/12.
                 let correlated = normal_p(covariance * 12.0 / (pairs.len() as f64).sqrt());
                 let uneven = evenness_p(&cells);
                 least = least.min(correlated).min(uneven);

@@ -17,7 +17,7 @@ use thinlens::verify::{MAX_MISMATCH_SHARE, verify};
 struct Place {
     at: DVec3,
     unit: f64,
-    /// In units.
+    /// The distance from the eye, in units.
     distance: f64,
     /// Whether the ball is one of many triangles, so that there is a tree.
     faceted: bool,
@@ -58,7 +58,7 @@ fn still_life(place: Place) -> Settings {
     add("box", format!("lower = {}\nupper = {}", corners[0], corners[1]), "checks");
     let corners = [point(0.9, 0.0, 0.3), point(1.4, 0.0, -0.2), point(1.1, 0.9, 0.1)];
     add("triangle", format!("vertices = [{}]", corners.join(", ")), "floor");
-    // What a ball mirrors is too small to be held against f64 from far away.
+    // From far away, mirror images in the ball are too small to be compared with f64.
     let ball = if distance < 100.0 { "ball" } else { "floor" };
     if faceted {
         let on_ball = |across: u32, up: u32| {
@@ -126,7 +126,7 @@ fn a_mesh_is_closed_from_far_away_too() {
     for distance in [10.0, 1e3, 1e4, 1e5] {
         for _ in 0..4096 {
             let mut place = || dvec3(random.f64() - 0.5, random.f64() - 0.5, random.f64() - 0.5);
-            // From above, and at most four fifths of its radius beside its middle.
+            // The ray comes from above, and passes the middle at four fifths of the radius at most.
             let middle = dvec3(0.0, 0.5, 0.0);
             let from = (place() + 0.6 * DVec3::Y).normalize();
             let aim = middle + 0.46 * place();

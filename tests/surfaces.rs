@@ -92,7 +92,7 @@ fn chain() -> SceneRef {
     scene
 }
 
-/// So many small shapes of each kind that they are found by a tree.
+/// Many small shapes of each kind, enough of them for a tree.
 fn crowd() -> SceneRef {
     let mut toml = CAMERA.to_owned();
     for number in 0..30 {
@@ -131,8 +131,8 @@ fn everything_and_smooth_triangles() -> SceneRef {
         let vertices = [11, 12, 13].map(|stream| center + 0.5 * random_direction(index, stream));
         let [a, b, c] = vertices;
         let across = (b - a).cross(c - a).normalize().as_vec3();
-        // So far from the triangle's own that mirror images leave below the surface, and some on the other
-        // side of it.
+        // The normals lean so far that some mirrored rays would go below the surface, and some normals are on its other
+        // side.
         let spread = if index % 3 == 0 { 4.0 } else { 1.2 };
         let normals = [14, 15, 16]
             .map(|stream| (across + spread * random_direction(index, stream).as_vec3()).normalize());

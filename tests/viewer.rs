@@ -40,7 +40,7 @@ fn sliders_change_what_is_rendered() {
     // Batches were cut at the targets in between, so a rounding may differ.
     viewer.expect_picture("more points", 1, &["-n", &points, "--lens-diameter", "0"]);
 
-    // At rest the device is idle: no frame is drawn.
+    // Once the picture is complete, no frame is drawn.
     viewer.rest();
     assert!(viewer.listen(Duration::from_secs(1)).is_none(), "it draws for nobody");
 

@@ -188,7 +188,7 @@ fn two_hundred_actions_leave_nothing_behind() {
         // Whatever was being typed is over.
         viewer.press("Escape");
         viewer.rest();
-        // A picture has all settings, and can be dropped whatever became of the panel.
+        // A saved picture sets everything, and can be dropped whatever the panel looks like.
         viewer.until(
             "version-4",
             // It may be paused, and then shows fewer points than it goes for.

@@ -1,4 +1,4 @@
-//! What becomes of sample values: places on the film and on the lens.
+//! The maps from sample values to places on the film and on the lens.
 
 mod common;
 

@@ -32,7 +32,7 @@ fn load(bytes: &[u8]) -> Result<scene::Scene, Error> {
     scene::load(&path)
 }
 
-/// The scene with something else in place of a part, and what it is refused with: line and words.
+/// Replaces a part of the scene, and gives the line and the words of the error.
 fn refused(old: &str, new: &str) -> (usize, String) {
     assert!(SCENE.contains(old), "{old}");
     match load(SCENE.replacen(old, new, 1).as_bytes()).err() {

@@ -30,7 +30,7 @@ pub fn load(scene: impl AsRef<Path>) -> Result<Scene> {
     Ok(load_with_text(scene)?.scene)
 }
 
-/// Likewise, with the text of its file.
+/// Loads a scene as [`load`] does, and gives the text of its file too.
 ///
 /// # Errors
 /// As [`load`].

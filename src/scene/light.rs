@@ -5,20 +5,20 @@ use glam::{DVec3, Vec3};
 /// A light without extent: Suffern, chapter 14. It does not weaken with distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Light {
-    /// Where it is, or where it comes from.
+    /// The place of a point light, or the direction of a directional one.
     pub kind: LightKind,
-    /// What it sends to every point.
+    /// The radiance that arrives at every point, however far away.
     pub radiance: Vec3,
-    /// Whether what stands between keeps it off.
+    /// Whether shapes cast shadows in its light.
     pub shadows: bool,
 }
 
 /// Where light comes from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LightKind {
-    /// From a point.
+    /// Light from a point.
     Point(DVec3),
-    /// Along parallel lines. The vector points to the light and has any length but zero.
+    /// Light along parallel lines. The vector points to the light and has any length but zero.
     Directional(Vec3),
 }
 
@@ -26,8 +26,8 @@ pub enum LightKind {
 /// between mixed by `y (2 - y)` of the unit direction's height `y`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Background {
-    /// At and below the horizon.
+    /// The radiance at and below the horizon.
     pub horizon: Vec3,
-    /// Straight up.
+    /// The radiance straight up.
     pub zenith: Vec3,
 }

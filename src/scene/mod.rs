@@ -54,9 +54,9 @@ pub const MAX_LENGTH: f32 = 1e9;
 pub struct Scene {
     /// The built-in's name, or the file's.
     pub name: String,
-    /// As it was named to [`load`]: a built-in, or a path.
+    /// The name that was given to [`load`]: a built-in's, or a path.
     pub source: PathBuf,
-    /// The files it was read from: its own, and those of its meshes.
+    /// The files that it was read from: its own, and those of its meshes.
     pub files: Vec<PathBuf>,
     /// Where the picture is taken from.
     pub camera: Camera,
@@ -66,7 +66,7 @@ pub struct Scene {
     pub lens: Lens,
     /// The hole of a camera without a lens.
     pub hole: Hole,
-    /// The shape of either.
+    /// The shape of the opening of the lens or the hole.
     pub aperture: Aperture,
     /// The picture's size in pixels, unless another is asked for.
     pub size: [u32; 2],
@@ -85,7 +85,7 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// Materials, which shapes name by index.
     pub materials: Vec<Material>,
-    /// What each of them is called.
+    /// The names of the materials.
     pub material_names: Vec<String>,
     /// The shapes, of all kinds.
     pub shapes: Vec<Shaded>,

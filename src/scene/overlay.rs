@@ -52,13 +52,13 @@ pub enum Source {
 /// Where the scale of an overlay ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FullScale {
-    /// At the number of samples that is wanted.
+    /// The scale ends at the number of samples that is wanted.
     Samples,
-    /// At this number.
+    /// The scale ends at this number.
     Number(f32),
-    /// At the picture's height in pixels over this.
+    /// The scale ends at the height of the picture in pixels, divided by this.
     HeightOver(f32),
-    /// At [`super::View::tolerance`].
+    /// The scale ends at [`super::View::tolerance`].
     Tolerance,
 }
 

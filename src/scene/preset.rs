@@ -5,24 +5,24 @@ use super::{Camera, CameraModel, Lens, vfov_of_focal_length};
 /// A lens, by its name.
 #[derive(Debug, Clone, Copy)]
 pub struct Preset {
-    /// On the command line.
+    /// Its name on the command line.
     pub name: &'static str,
-    /// For people.
+    /// Its name in the panel.
     pub label: &'static str,
     /// What it shows, in plain words.
     pub help: &'static str,
-    opening: Opening,
+    effect: Effect,
 }
 
 #[derive(Debug, Clone, Copy)]
-enum Opening {
+enum Effect {
     Pinhole,
-    /// Of a lens that is focused at infinity on a 24 mm high frame.
+    /// A lens of this focal length and f-number, focused at infinity, with a frame that is 24 mm high.
     Photographic {
         focal_length_mm: f64,
         f_number: f64,
     },
-    /// The field of view stays as it is: an eye has another for each thing that it looks at.
+    /// The pupil of an eye. The field of view stays as it is, for that of an eye depends on what it looks at.
     Pupil {
         diameter_mm: f64,
     },
@@ -34,7 +34,7 @@ pub const PRESETS: [Preset; 6] = [
         name: "pinhole",
         label: "Pinhole",
         help: "A hole without size: everything is sharp, as in most computer graphics.",
-        opening: Opening::Pinhole,
+        effect: Effect::Pinhole,
     },
     fifty(
         "50mm-f1.8",
@@ -48,18 +48,18 @@ pub const PRESETS: [Preset; 6] = [
         name: "eye-2mm",
         label: "Eye, 2 mm pupil",
         help: "The pupil of an eye in bright light.",
-        opening: Opening::Pupil { diameter_mm: 2.0 },
+        effect: Effect::Pupil { diameter_mm: 2.0 },
     },
     Preset {
         name: "eye-8mm",
         label: "Eye, 8 mm pupil",
         help: "The pupil of a young eye in the dark: it sees less depth sharp.",
-        opening: Opening::Pupil { diameter_mm: 8.0 },
+        effect: Effect::Pupil { diameter_mm: 8.0 },
     },
 ];
 
 const fn fifty(name: &'static str, label: &'static str, help: &'static str, f_number: f64) -> Preset {
-    Preset { name, label, help, opening: Opening::Photographic { focal_length_mm: 50.0, f_number } }
+    Preset { name, label, help, effect: Effect::Photographic { focal_length_mm: 50.0, f_number } }
 }
 
 impl Preset {
@@ -71,13 +71,13 @@ impl Preset {
     /// Puts the lens in front of the camera. What is in focus stays in focus.
     pub fn apply(&self, camera: &mut Camera, model: &mut CameraModel, lens: &mut Lens) {
         *model = CameraModel::ThinLens;
-        match self.opening {
-            Opening::Pinhole => *model = CameraModel::Pinhole,
-            Opening::Photographic { focal_length_mm, f_number } => {
+        match self.effect {
+            Effect::Pinhole => *model = CameraModel::Pinhole,
+            Effect::Photographic { focal_length_mm, f_number } => {
                 camera.vfov_radians = vfov_of_focal_length(focal_length_mm);
                 lens.diameter = camera.diameter_of_f_number(f_number) as f32;
             }
-            Opening::Pupil { diameter_mm } => lens.diameter = camera.units_of_mm(diameter_mm) as f32,
+            Effect::Pupil { diameter_mm } => lens.diameter = camera.units_of_mm(diameter_mm) as f32,
         }
     }
 }

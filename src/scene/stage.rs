@@ -14,7 +14,7 @@ const MAX_BOUNCES: u32 = 5;
 const HORIZON: Vec3 = Vec3::new(0.92, 0.9, 0.87);
 const ZENITH: Vec3 = Vec3::new(0.24, 0.44, 0.78);
 const AMBIENT: Vec3 = Vec3::new(0.24, 0.27, 0.32);
-/// A warm key light with shadows from the left, a cool fill light without from the right.
+/// A warm key light from the left, with shadows, and a cool fill light from the right, without.
 const LIGHTS: [Light; 2] = [
     Light {
         kind: LightKind::Directional(Vec3::new(-0.5, 1.0, 0.65)),
@@ -29,34 +29,36 @@ const LIGHTS: [Light; 2] = [
 ];
 const SIZE: [u32; 2] = [1280, 720];
 const VFOV_DEGREES: f64 = 34.0;
-/// From the mesh to the eye: a three-quarter view from a little above, which shows the horizon.
+/// The direction from the mesh to the eye: a three-quarter view from a little above, which shows the horizon.
 const TO_EYE: DVec3 = DVec3::new(0.52, 0.2, 0.8);
 /// The box around the mesh fills this share of the picture's width or height, at most.
 const FILL: f64 = 0.78;
 /// The blur of the mesh's farthest point, as a share of the picture's height.
 const FAR_BLUR: f64 = 0.025;
-/// The widest lens, as a share of the focal distance: meshes without depth would ask for any.
+/// The widest lens, as a share of the focal distance. Without this limit, a mesh without depth would get a lens of any
+/// width.
 const WIDEST_LENS: f64 = 0.08;
 /// The lens's f-number.
 const F_NUMBER: f64 = 2.0;
 /// Edge of the ground's squares, as a share of the box's diagonal.
 const SQUARE: f64 = 0.2;
-/// The ground lies below the mesh by this share of the diagonal, for a flat mesh would else be in it.
+/// The gap between the mesh and the ground, as a share of the diagonal. Without it, a flat mesh would lie in the ground.
 const GAP: f64 = 1e-3;
-/// Sizes of a mesh: the lengths of the scene around it stay within MIN_LENGTH and MAX_LENGTH by far.
+/// The diagonals of meshes that can be shown. The lengths of the scene around such a mesh are far from MIN_LENGTH and
+/// MAX_LENGTH.
 const DIAGONALS: RangeInclusive<f64> = 1e-4..=1e7;
 
-/// Where a mesh stands.
+/// The ground that a mesh stands on.
 struct Ground {
-    /// Edge of its squares.
+    /// The edge of its squares.
     square: f64,
     height: f64,
-    /// Where the mesh is moved.
+    /// The position that the mesh is moved to.
     position: DVec3,
 }
 
 impl Ground {
-    /// Below the mesh.
+    /// The ground below a mesh.
     fn new(mesh: &Mesh) -> Result<Self> {
         let [lower, upper] = mesh.bounds();
         let extent = upper - lower;
@@ -69,7 +71,7 @@ impl Ground {
             );
             return Err(mesh.error(message));
         }
-        // In the middle of a layer of the ground's checker, no rounding changes its colours.
+        // The ground lies in the middle of a layer of its checker, so that rounding cannot change its colours.
         let square = SQUARE * diagonal;
         let height = 0.5 * square;
         let foot = DVec3::new(lower.x + 0.5 * extent.x, lower.y, lower.z + 0.5 * extent.z);
@@ -108,7 +110,7 @@ pub(super) fn around(mesh: &Mesh, name: &str) -> Result<(Scene, String)> {
     };
     mesh.add_to(&mut scene, &placement, None, Vec3::ZERO)?;
     scene.lens = lens_for(&scene);
-    // A file does not say how large its units are: as large as makes of this lens an ordinary one.
+    // A mesh file does not say how large its units are. They are taken as large as gives the lens this f-number.
     let frame_metres = scene.camera.focal_length_mm() / 1000.0;
     scene.camera.metres_per_unit = frame_metres / F_NUMBER / f64::from(scene.lens.diameter);
     scene.hole.diameter = scene.camera.default_hole_diameter();
@@ -116,7 +118,7 @@ pub(super) fn around(mesh: &Mesh, name: &str) -> Result<(Scene, String)> {
     Ok((scene, text))
 }
 
-/// The text of a scene file of it.
+/// The text of a scene file with this stage.
 fn scene_file(scene: &Scene, ground: &Ground) -> String {
     let numbers = |vector: Vec3| format!("[{}, {}, {}]", vector.x, vector.y, vector.z);
     let place = |point: DVec3| format!("[{}, {}, {}]", point.x, point.y, point.z);
@@ -164,7 +166,7 @@ fn scene_file(scene: &Scene, ground: &Ground) -> String {
     text
 }
 
-/// Looks at a box of this centre and half extent from where all its corners are in the picture.
+/// A camera that looks at a box of this centre and half extent, from where all its corners are in the picture.
 fn camera(center: DVec3, half: DVec3) -> Camera {
     let to_eye = TO_EYE.normalize();
     let toward = |distance: f64| {
@@ -179,7 +181,7 @@ fn camera(center: DVec3, half: DVec3) -> Camera {
     };
     let diagonal = 2.0 * half.length();
     let frame = toward(diagonal).frame();
-    // Slopes of the lines of sight that end at the edges of what may be filled.
+    // The slopes of the lines of sight to the edges of the part of the picture that the box may fill.
     let highest = FILL * (0.5 * VFOV_DEGREES.to_radians()).tan();
     let widest = highest * f64::from(SIZE[0]) / f64::from(SIZE[1]);
     let distance = (0..8).map(|corner| {
@@ -191,7 +193,7 @@ fn camera(center: DVec3, half: DVec3) -> Camera {
     toward(distance.fold(0.0, f64::max))
 }
 
-/// Focused on the nearest vertex along the axis, and as wide as blurs the farthest one clearly.
+/// A lens that is focused on the nearest vertex along the axis, and wide enough to blur the farthest one clearly.
 fn lens_for(scene: &Scene) -> Lens {
     let frame = scene.camera.frame();
     let vertices = scene.of_kind::<Triangle>().flat_map(|(triangle, _)| triangle.vertices);

@@ -148,7 +148,7 @@ pub fn scene_of(toml: &str) -> SceneRef {
     SceneRef::new(plain_scene_of(toml))
 }
 
-/// Likewise, to be changed.
+/// A scene from TOML that the test may change.
 pub fn plain_scene_of(toml: &str) -> Scene {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("test.toml");
@@ -202,7 +202,7 @@ pub fn render(renderer: &mut Renderer, settings: &Settings) -> anyhow::Result<Ve
     Ok(renderer.read_film()?)
 }
 
-/// Likewise, with a renderer of its own.
+/// Renders to the end with a renderer of its own, and gives the film.
 pub fn film(gpu: &Gpu, settings: &Settings) -> Vec<[f32; 4]> {
     render(&mut gpu.renderer(), settings).expect("a film")
 }

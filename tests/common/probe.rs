@@ -26,7 +26,7 @@ pub fn probe<In: Pod, Out: Pod>(
     probe_as(gpu, name, Sampler::default(), scene, push, inputs)
 }
 
-/// Likewise, compiled for a sampler.
+/// Runs a probe that is compiled for a sampler.
 pub fn probe_as<In: Pod, Out: Pod>(
     gpu: &Gpu,
     name: &'static str,

@@ -150,8 +150,7 @@ pub struct Night {
 }
 
 impl Night {
-    /// Such that what stands there blurs over `across` pixels of a picture of this height: from
-    /// `D (1/F - 1/z) k`.
+    /// A night whose lamps blur over `across` pixels of a picture of this height, by `D (1/F - 1/z) k`.
     pub fn new(height: u32, across: f64) -> Self {
         let (lens, depth) = (6.0, 100.0);
         let k = f64::from(height) / 2.0 / 20f64.to_radians().tan();

@@ -56,7 +56,7 @@ impl Moments {
         moments
     }
 
-    /// Of so many numbers whose mean, and whose mean's standard error, are known.
+    /// The moments of numbers whose mean is known, with the standard error of that mean.
     pub fn known(count: f64, mean: f64, error: f64) -> Self {
         Self { count, mean, sum_of_squares: error * error * count * (count - 1.0) }
     }
@@ -100,8 +100,8 @@ impl Spread {
         spread
     }
 
-    /// Of the pixels alone, where the pictures are not at hand. The error of their mean is an upper
-    /// bound: pixels are independent, but a pixel's channels move together.
+    /// The spread of pictures of which only the moments of the pixels are known. The error of their mean is an upper bound:
+    /// pixels are independent, but the channels of a pixel are not.
     pub fn of_pixels(pixels: Vec<[Moments; 3]>) -> Self {
         let all = || pixels.iter().flatten();
         let count = all().count() as f64;

@@ -10,7 +10,8 @@ pub(super) fn point(of: CatsEye, film: [f64; 2], xi: [f64; 2]) -> ([f64; 2], f64
     overlap(film.map(|share| -off * share * shorter), xi)
 }
 
-/// Of two unit discs, the second one off by so much; and the share of a disc that they have in common.
+/// A point that two unit discs have in common, of which the second is off by so much, and the share of a disc that they
+/// have in common.
 fn overlap(off: [f64; 2], xi: [f64; 2]) -> ([f64; 2], f64) {
     let distance = off[0].hypot(off[1]);
     let axis = if distance > 0.0 { off.map(|part| part / distance) } else { [1.0, 0.0] };
