@@ -8,8 +8,8 @@ use std::sync::Arc;
 use thinlens::error::Result;
 use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush, lens_constants};
 use thinlens::interface::binding;
-use thinlens::passes::{Accumulate, Adaptive, BlueNoiseTile, Opening, SceneBuffers, Trace};
-use thinlens::renderer::schedule::Pass;
+use thinlens::passes::{Accumulate, Adaptive, ApertureBuffers, BlueNoiseTile, SceneBuffers, Trace};
+use thinlens::renderer::schedule::Batch;
 use thinlens::scene::{self, SceneRef};
 use thinlens::settings::Settings;
 use thinlens::vulkan::{
@@ -52,9 +52,9 @@ fn measure(device: &Arc<Device>, name: &str) -> Result<()> {
         Trace::new(device, Trace::SHADER, &constants, &scene, &tile)?,
         Accumulate::new(device, Accumulate::SHADER, &constants, &tile)?,
     );
-    let opening = Opening::new(device, &[])?;
+    let aperture = ApertureBuffers::new(device, &[])?;
     let adaptive = Adaptive::new(device, None)?;
-    let traced = trace.bind(&scene, &opening, &batch, &counters, &adaptive, 0)?;
+    let traced = trace.bind(&scene, &aperture, &batch, &counters, &adaptive, 0)?;
     let accumulated = accumulate.bind(&batch, &film, &adaptive, 0)?;
     let spirv = thinlens_test_shaders::spirv("fused", "").expect("a shader that there is");
     let fused = Shader { name: "fused", spirv };
@@ -66,7 +66,7 @@ fn measure(device: &Arc<Device>, name: &str) -> Result<()> {
         adaptive.bind_active(0),
         tile.binding(),
     ]);
-    bindings.extend(opening.bindings());
+    bindings.extend(aperture.bindings());
     let fused_bindings = BindingSet::new(&fused, &bindings)?;
 
     let mut commands = Commands::new(device)?;
@@ -79,7 +79,7 @@ fn measure(device: &Arc<Device>, name: &str) -> Result<()> {
     let (mut two, mut one) = (Vec::new(), Vec::new());
     for round in 0..=ROUNDS {
         let first_sample = SAMPLES * u32::try_from(round).expect("few rounds");
-        let lattice = Pass::whole(first_sample, u32::MAX, SAMPLES).lattice(SIZE);
+        let lattice = Batch::whole(first_sample, u32::MAX, SAMPLES).lattice(SIZE);
         let push = TracePush {
             camera: Camera::new(estimator),
             lattice,

@@ -134,10 +134,9 @@ pub fn run(pictures: &[Settings], choice: &DeviceChoice) -> Result<String> {
     let instance = Instance::new(choice.validation, None)?;
     let device = Device::open(&instance, choice.device.as_deref(), None)?;
     device.keep_pipelines();
-    let mut renderer = Renderer::new(&device)?;
     let mut lines = vec![format!("{} ({})", device.info().name, device.info().driver)];
     for settings in pictures {
-        let agreement = verify(&mut renderer, settings)?;
+        let agreement = verify(&mut Renderer::new(&device, settings)?, settings)?;
         let [width, height] = settings.estimator.size;
         lines.push(format!(
             "{:16} {width}x{height}, {} samples: {} differ ({:.4}%, at most {}%), the others by {:.1e} at most, \
@@ -151,7 +150,7 @@ pub fn run(pictures: &[Settings], choice: &DeviceChoice) -> Result<String> {
             100.0 * agreement.brightness_difference(),
         ));
     }
-    drop((renderer, device));
+    drop(device);
     instance.check_validation()?;
     Ok(lines.join("\n"))
 }

@@ -9,9 +9,9 @@ use common::{Gpu, bits, film, probe, prove, render, scene_of, settings_of, small
 use glam::DVec3;
 use std::sync::Arc;
 use thinlens::gpu_types::{Camera, Counters, SceneData, TracePush, lens_constants};
-use thinlens::passes::{Adaptive, BlueNoiseTile, Opening, SceneBuffers, Trace};
+use thinlens::passes::{Adaptive, ApertureBuffers, BlueNoiseTile, SceneBuffers, Trace};
 use thinlens::reference::{self, sampler};
-use thinlens::renderer::schedule::Pass;
+use thinlens::renderer::schedule::Batch;
 use thinlens::settings::Settings;
 use thinlens::vulkan::{Buffer, Commands, Image, Residence};
 
@@ -42,13 +42,13 @@ fn record(gpu: &Gpu, settings: &Settings) -> Result<Vec<Vec<[f32; 4]>>> {
     let batch = Arc::new(Image::rgba32f(device, "batch", estimator.size)?);
     let read = Buffer::new(device, "samples", batch.byte_len(), Residence::Host)?;
     let adaptive = Adaptive::new(device, None)?;
-    let opening = Opening::new(device, &[])?;
-    let bindings = trace.bind(&scene, &opening, &batch, &Arc::new(counters), &adaptive, 0)?;
+    let aperture = ApertureBuffers::new(device, &[])?;
+    let bindings = trace.bind(&scene, &aperture, &batch, &Arc::new(counters), &adaptive, 0)?;
     let mut commands = Commands::new(device)?;
     let one = |first_sample| {
         let push = TracePush {
             camera: Camera::new(estimator),
-            lattice: Pass::whole(first_sample, *samples, 1).lattice(estimator.size),
+            lattice: Batch::whole(first_sample, *samples, 1).lattice(estimator.size),
             seed: estimator.seed,
             max_bounces: estimator.max_bounces,
             first_sample,
@@ -180,7 +180,7 @@ fn an_old_picture_leaves_no_trace() {
         let [mut old, mut new] = [old.clone(), new.clone()];
         for jitter in [1.0, 3.0] {
             (old.estimator.jitter, new.estimator.jitter) = (jitter, jitter);
-            let mut renderer = gpu.renderer();
+            let mut renderer = gpu.renderer(&old);
             render(&mut renderer, &old)?;
             let same = bits(&render(&mut renderer, &new)?) == bits(&film(gpu, &new));
             ensure!(same, "jitter {jitter}: the old picture is still there");
@@ -196,7 +196,7 @@ fn an_old_picture_leaves_no_trace() {
 fn samples_that_are_not_finite_are_rejected_and_reported() {
     let settings = settings_of(BURNING, [64, 48], 8);
     let check = |gpu: &Gpu| -> Result<String> {
-        let mut renderer = gpu.renderer();
+        let mut renderer = gpu.renderer(&settings);
         let film = render(&mut renderer, &settings)?;
         let progress = renderer.progress();
         ensure!(film.iter().flatten().all(|value| value.is_finite()), "the film is not finite");

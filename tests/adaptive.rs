@@ -158,7 +158,7 @@ fn what_does_not_stop_is_what_it_was() {
         settings.estimator.lens.diameter = 3.0;
         let got = film(&gpu, &settings);
         settings.estimator.noise_threshold = 0.0;
-        let mut renderer = gpu.renderer();
+        let mut renderer = gpu.renderer(&settings);
         // The same batches as in an adaptive picture, between which pixels may stop.
         renderer.set_max_batch(16);
         let uniform = render(&mut renderer, &settings).expect("a film");
@@ -181,8 +181,7 @@ fn tiles_previews_and_pauses_change_no_count() {
         let expected = bits(&film(&gpu, &settings));
         for preview in [false, true] {
             let pace = Pace { budget: Duration::ZERO, preview };
-            let mut renderer = gpu.renderer();
-            renderer.set(&settings).expect("valid settings");
+            let mut renderer = gpu.renderer(&settings);
             renderer.render_at(pace, |_| ()).expect("a rendering");
             let got = renderer.read_film().expect("a film");
             assert!(bits(&got) == expected, "jitter {jitter}, size {size:?}, preview {preview}");
@@ -201,7 +200,7 @@ fn counts_can_be_looked_at() {
     let gpu = Gpu::new();
     let mut settings = adaptive("version-4", 0.08);
     settings.view.overlay = Some(Overlay::Count);
-    let mut renderer = gpu.renderer();
+    let mut renderer = gpu.renderer(&settings);
     let film = render(&mut renderer, &settings).expect("a film");
     let picture = renderer.read_picture().expect("a picture");
     for (texel, shown) in film.iter().zip(picture.chunks_exact(4)) {
@@ -218,7 +217,7 @@ fn a_picture_without_noise_stops_early() {
     let gpu = Gpu::new();
     let mut settings = settings_of(&Night::new(48, 20.0).toml(), [64, 48], 4096);
     settings.estimator.noise_threshold = 1.0;
-    let mut renderer = gpu.renderer();
+    let mut renderer = gpu.renderer(&settings);
     let film = render(&mut renderer, &settings).expect("a film");
     assert!(film.iter().all(|texel| texel[3] == 32.0));
     let progress = renderer.progress();

@@ -21,7 +21,7 @@ fn the_device_renders_what_the_oracle_does() {
     let own = [EVERYTHING, ROOM].map(|toml| settings_of(toml, [64, 48], 8));
     let builtin = ["version-4", "suffern-boxes", "suffern-mirror"].map(small);
     let check = |gpu: &Gpu| -> Result<String> {
-        let mut renderer = gpu.renderer();
+        let mut renderer = gpu.renderer(&own[0]);
         let (mut samples, mut mismatches, mut share, mut brightness) = (0, 0, 0.0_f64, 0.0_f64);
         for settings in own.iter().chain(&builtin) {
             for (jitter, sampler) in [

@@ -11,7 +11,7 @@ use std::path::Path;
 use std::sync::Arc;
 use thinlens::gpu_types::{ApertureBuffer, aperture_sums, lens_constants};
 use thinlens::interface::binding;
-use thinlens::passes::{BlueNoiseTile, Opening};
+use thinlens::passes::{ApertureBuffers, BlueNoiseTile};
 use thinlens::reference::{aperture, sampler};
 use thinlens::scene::{Aperture, ApertureImage};
 use thinlens::settings::{Estimator, Sampler};
@@ -47,10 +47,10 @@ fn estimator(aperture: Aperture) -> Estimator {
 fn points(gpu: &Gpu, estimator: &Estimator, places: &[Place]) -> Result<Vec<[f64; 3]>> {
     let device = gpu.device();
     let sums = estimator.aperture.image.as_ref().map(aperture_sums).unwrap_or_default();
-    let opening = Opening::new(device, &sums)?;
+    let aperture = ApertureBuffers::new(device, &sums)?;
     let mut commands = Commands::new(device)?;
     let mut recording = commands.begin()?;
-    opening.record(&mut recording, &ApertureBuffer::new(estimator));
+    aperture.record(&mut recording, &ApertureBuffer::new(estimator));
     recording.submit()?;
     commands.wait()?;
 
@@ -62,7 +62,7 @@ fn points(gpu: &Gpu, estimator: &Estimator, places: &[Place]) -> Result<Vec<[f64
         (binding::PROBE_INPUTS, Binding::Buffer(input)),
         (binding::PROBE_OUTPUTS, Binding::Buffer(Arc::clone(&output))),
     ];
-    bindings.extend(opening.bindings());
+    bindings.extend(aperture.bindings());
     bindings.push(BlueNoiseTile::new(device)?.binding());
     let bindings = BindingSet::new(&pipeline, &bindings)?;
     probe::run(gpu, &pipeline, &bindings, &[], [u32::try_from(places.len())?, 1]);
@@ -235,7 +235,7 @@ fn pictures_are_taken_through_the_aperture() {
         plain,
     ];
     let check = |gpu: &Gpu| -> Result<String> {
-        let mut renderer = gpu.renderer();
+        let mut renderer = gpu.renderer(&settings_of(EVERYTHING, [64, 48], 8));
         let (mut samples, mut mismatches) = (0, 0);
         for aperture in &apertures {
             for sampler in [Sampler::BlueNoise, Sampler::Random] {
@@ -266,8 +266,8 @@ fn pictures_are_taken_through_the_aperture() {
 #[test]
 fn a_pinhole_has_no_shape() {
     let gpu = Gpu::new();
-    let mut renderer = gpu.renderer();
     let mut settings = settings_of(EVERYTHING, [64, 48], 2);
+    let mut renderer = gpu.renderer(&settings);
     settings.estimator.model = thinlens::scene::CameraModel::Pinhole;
     let plain = common::bits(&render(&mut renderer, &settings).expect("a film"));
     settings.estimator.aperture.cats_eye = 0.8;

@@ -13,9 +13,8 @@ use thinlens::settings::Settings;
 const RAYS: u32 = 9;
 
 fn drawn(gpu: &Gpu, settings: &Settings, position: [f32; 2]) -> Result<Diagram> {
-    let mut renderer = gpu.renderer();
-    renderer.set(settings)?;
-    let picked = renderer.pick(Question { position, fan: RAYS, samples: RAYS })?.expect("an answer");
+    let picked =
+        gpu.renderer(settings).pick(Question { position, fan: RAYS, samples: RAYS })?.expect("an answer");
     Ok(Diagram::new(&settings.estimator, &picked))
 }
 

@@ -54,8 +54,7 @@ fn tiles_previews_and_pauses_change_nothing() {
         for preview in [false, true] {
             // A budget of nothing: a row of workgroups a submission.
             let pace = Pace { budget: Duration::ZERO, preview };
-            let mut renderer = Renderer::new(gpu.device()).expect("a renderer");
-            renderer.set(&settings).expect("valid settings");
+            let mut renderer = Renderer::new(gpu.device(), &settings).expect("valid settings");
             let mut submissions = 0;
             renderer
                 .render_at(pace, |_| {
@@ -80,9 +79,8 @@ fn another_cut_of_batches_gives_the_same_mean() {
     settings.samples = 50;
     let expected = film(&gpu, &settings);
     for max_batch in [1, 2, 8, 64] {
-        let mut renderer = Renderer::new(gpu.device()).expect("a renderer");
+        let mut renderer = Renderer::new(gpu.device(), &settings).expect("valid settings");
         renderer.set_max_batch(max_batch);
-        renderer.set(&settings).expect("valid settings");
         renderer.render(|_| ()).expect("a rendering");
         for (got, expected) in renderer.read_film().expect("a film").iter().zip(&expected) {
             assert_eq!(got[3], 50.0);
@@ -102,7 +100,7 @@ fn raising_the_target_goes_on_and_lowering_it_below_the_count_restarts() {
     settings.samples = 64;
     let expected = bits(&film(&gpu, &settings));
 
-    let mut renderer = Renderer::new(gpu.device()).expect("a renderer");
+    let mut renderer = Renderer::new(gpu.device(), &settings).expect("valid settings");
     let mut go_to = |samples: u32| {
         settings.samples = samples;
         renderer.set(&settings).expect("valid settings");
@@ -125,8 +123,7 @@ fn raising_the_target_goes_on_and_lowering_it_below_the_count_restarts() {
 fn the_film_restarts_with_the_estimator_and_not_with_the_view() {
     let gpu = Gpu::new();
     let mut settings = small("version-4");
-    let mut renderer = Renderer::new(gpu.device()).expect("a renderer");
-    renderer.set(&settings).expect("valid settings");
+    let mut renderer = Renderer::new(gpu.device(), &settings).expect("valid settings");
     renderer.render(|_| ()).expect("a rendering");
     let dark = renderer.read_picture().expect("a picture");
 
@@ -187,13 +184,13 @@ fn planes(count: usize) -> Settings {
 #[test]
 fn many_shapes_lose_no_samples() {
     let gpu = Gpu::new();
-    let mut renderer = Renderer::new(gpu.device()).expect("a renderer");
     // The farthest of these planes are never seen.
     // Lavapipe has the limit, even where it is used as a GPU that has none.
     for mut settings in [spheres(3000), planes(if common::as_gpu() { 300 } else { 3000 })] {
         let film = film(&gpu, &settings);
         assert!(film.iter().all(|texel| texel[3] == 20.0));
         settings.samples = 8;
+        let mut renderer = Renderer::new(gpu.device(), &settings).expect("valid settings");
         thinlens::verify::verify(&mut renderer, &settings).unwrap_or_else(|error| panic!("{error}"));
     }
 }
@@ -209,8 +206,8 @@ fn what_needs_too_many_steps_is_refused_before_it_is_compiled() {
     // No driver is given this.
     let trace = Shader { name: "trace", spirv: &[] };
     let shaders = Shaders { trace, ..Shaders::default() };
-    let mut renderer = Renderer::with_shaders(gpu.device(), shaders).expect("a renderer");
-    let error = renderer.set(&planes(33_000)).expect_err("too many for software");
+    let error =
+        Renderer::with_shaders(gpu.device(), shaders, &planes(33_000)).err().expect("too many for software");
     assert!(error.to_string().contains("33000 planes"), "{error}");
 }
 
@@ -230,7 +227,7 @@ fn what_takes_too_long_is_rejected() {
         .replace("look_at = [0, 0, 0]", "look_at = [-40, -42, 0]")
         .replace("vfov_degrees = 60", "vfov_degrees = 1");
     let settings = settings_of(&toml, [8, 8], 4);
-    let mut renderer = gpu.renderer();
+    let mut renderer = gpu.renderer(&settings);
     let film = render(&mut renderer, &settings).expect("a film");
     let counted: f32 = film.iter().map(|texel| texel[3]).sum();
     let rejected = renderer.progress().rejected_samples;
@@ -260,12 +257,11 @@ fn a_preview_shows_nothing_of_the_last_picture() {
         };
         (0..30).map(&mut after_submission).collect()
     };
-    let mut used = Renderer::new(gpu.device()).expect("a renderer");
     let mut other = settings.clone();
     other.estimator.scene = small("suffern-boxes").estimator.scene;
-    used.set(&other).expect("valid settings");
+    let mut used = Renderer::new(gpu.device(), &other).expect("valid settings");
     used.render(|_| ()).expect("a rendering");
-    let fresh = pictures(&mut Renderer::new(gpu.device()).expect("a renderer"));
+    let fresh = pictures(&mut Renderer::new(gpu.device(), &settings).expect("valid settings"));
     assert!(fresh[0] != fresh[29], "it is a preview");
     assert!(fresh[0].chunks(4).all(|pixel| pixel != [0; 4]), "every pixel is filled");
     assert!(pictures(&mut used) == fresh);
@@ -277,7 +273,7 @@ fn a_preview_shows_nothing_of_the_last_picture() {
 fn pixels_whose_samples_were_rejected_show_a_neighbour() {
     let gpu = Gpu::new();
     let settings = settings_of(common::scenes::BURNING, [32, 24], 1);
-    let mut renderer = Renderer::new(gpu.device()).expect("a renderer");
+    let mut renderer = Renderer::new(gpu.device(), &settings).expect("valid settings");
     let film = common::render(&mut renderer, &settings).expect("a film");
     let picture = renderer.read_picture().expect("a picture");
     let holes: Vec<_> = film.iter().zip(picture.chunks(4)).filter(|(texel, _)| texel[3] == 0.0).collect();

@@ -37,8 +37,7 @@ fn the_device_knows_what_lies_under_a_pixel() {
     let check = |gpu: &Gpu| -> Result<String> {
         let (mut surfaces, mut background, mut worst, mut off_axis) = (0, 0, 0.0_f64, 0.0_f64);
         for settings in &settings {
-            let mut renderer = gpu.renderer();
-            renderer.set(settings)?;
+            let mut renderer = gpu.renderer(settings);
             for place in places(settings.estimator.size) {
                 let picked = renderer.pick(Question::at(place))?.expect("an answer");
                 ensure!(picked.question.position == place, "the answer is to {:?}", picked.question);
@@ -72,8 +71,7 @@ fn the_rays_of_a_place_go_through_its_point_in_focus() {
     settings.estimator.seed = 5;
     let check = |gpu: &Gpu| -> Result<String> {
         let estimator = &settings.estimator;
-        let (mut renderer, frame) = (gpu.renderer(), estimator.camera.frame());
-        renderer.set(&settings)?;
+        let (mut renderer, frame) = (gpu.renderer(&settings), estimator.camera.frame());
         let (mut rays, mut worst) = (0, 0.0_f64);
         let (eye, radius) = (estimator.camera.eye, f64::from(estimator.lens.diameter) / 2.0);
         for position in [[3.5, 40.5], [32.0, 24.0], [60.25, 7.75]] {

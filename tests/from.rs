@@ -324,8 +324,7 @@ fn a_picture_is_saved_with_its_own_settings_or_not_at_all() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let mut settings = Settings::of_scene(SceneRef::new(scene::load("version-4").expect("a built-in scene")));
     (settings.estimator.size, settings.samples) = ([32, 24], 3);
-    let mut renderer = gpu.renderer();
-    renderer.set(&settings).expect("a film");
+    let mut renderer = gpu.renderer(&settings);
     renderer.render(|_| {}).expect("a picture");
     let file = folder.path().join("a.png");
     let mut other = settings.clone();

@@ -12,7 +12,7 @@ use std::sync::Arc;
 use thinlens::gpu_types::{OverlayScale, ResolvePush};
 use thinlens::interface::binding;
 use thinlens::output::write_png;
-use thinlens::passes::{Adaptive, Resolve};
+use thinlens::passes::{Adaptive, Resolve, ResolveKind};
 use thinlens::pending_file::PendingFile;
 use thinlens::vulkan::{Binding, BindingSet, Buffer, Commands, ComputePipeline, Image, Residence};
 
@@ -57,7 +57,8 @@ fn resolve(gpu: &Gpu, case: &Case) -> Result<Vec<u8>> {
     ];
     probe::run(gpu, &fill, &BindingSet::new(&fill, &filled)?, &[], case.extent);
 
-    let resolve = Resolve::new(device, gpu.shader("resolve"))?;
+    let kind = if case.has_holes { ResolveKind::WithHoles } else { ResolveKind::WithoutHoles };
+    let resolve = Resolve::new(device, gpu.shader("resolve"), kind)?;
     let bindings = resolve.bind(&film, &picture, &depth, &adaptive)?;
     let push = ResolvePush {
         extent: case.extent,
@@ -68,7 +69,7 @@ fn resolve(gpu: &Gpu, case: &Case) -> Result<Vec<u8>> {
     };
     let read = Buffer::new(device, "read-back", picture.byte_len(), Residence::Host)?;
     let mut recording = commands.begin()?;
-    resolve.record(&mut recording, &bindings, &push, case.has_holes, false);
+    resolve.record(&mut recording, &bindings, &push);
     recording.barrier();
     recording.copy_image(&picture, &read);
     recording.submit()?;

@@ -63,7 +63,7 @@ fn a_moving_crowd() -> Settings {
 fn moving_scenes_are_what_the_oracle_sees() {
     let scenes = [everything_moves(), a_moving_crowd()];
     let check = |gpu: &Gpu| -> Result<String> {
-        let mut renderer = gpu.renderer();
+        let mut renderer = gpu.renderer(&scenes[0]);
         let (mut samples, mut mismatches) = (0, 0);
         for scene in &scenes {
             for (sampler, seed) in [(Sampler::BlueNoise, 0), (Sampler::Sobol, 3), (Sampler::Random, 0)] {
@@ -97,7 +97,7 @@ fn a_moving_lamp_leaves_a_streak_as_long_as_its_way() {
     (settings.estimator.size, settings.samples) = ([160, 120], 256);
     let k = settings.estimator.camera.view_distance_pixels(120);
     let check = |gpu: &Gpu| -> Result<String> {
-        let film = render(&mut gpu.renderer(), &settings)?;
+        let film = render(&mut gpu.renderer(&settings), &settings)?;
         let light = film.iter().map(|texel| f64::from(texel[0]));
         let (mut all, mut first, mut second) = (0.0, 0.0, 0.0);
         for ([x, _], light) in pixels([160, 120]).zip(light) {

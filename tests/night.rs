@@ -79,10 +79,10 @@ fn light(renderer: &mut Renderer, settings: &Settings, threshold: f32) -> Result
 fn what_few_rays_meet_keeps_its_light() {
     let check = |gpu: &Gpu| -> Result<String> {
         let mut figures = Vec::new();
-        let mut renderer = gpu.renderer();
         for one_in in [50, 1000] {
             for (name, toml) in nights(f64::from(one_in).recip()) {
                 let settings = settings_of(&toml, SIZE, 1024);
+                let mut renderer = gpu.renderer(&settings);
                 let all = light(&mut renderer, &settings, 0.0)?;
                 for threshold in [0.05, 1.0] {
                     let kept = light(&mut renderer, &settings, threshold)? / all;

@@ -40,7 +40,6 @@ fn blurred(picture: &[[f64; 3]]) -> Vec<[f64; 3]> {
 #[test]
 fn blurring_leaves_less_of_blue_noise() {
     let check = |gpu: &Gpu| -> Result<String> {
-        let mut renderer = gpu.renderer();
         let mut figures = Vec::new();
         // The largest shares of the blurred error: after one sample with seed 0, with other seeds, and after four samples.
         let bounds = [
@@ -50,6 +49,7 @@ fn blurring_leaves_less_of_blue_noise() {
         ];
         for (scene, [first, first_of_others, fourth]) in bounds {
             let settings = Settings { samples: 256, ..small(scene) };
+            let mut renderer = gpu.renderer(&settings);
             let mut film = |sampler, samples, seed| {
                 let mut settings = settings.clone();
                 (settings.estimator.size, settings.estimator.sampler) = (SIZE, sampler);

@@ -93,7 +93,7 @@ fn overlays_show_depth_and_blur() {
         vec![small("version-4"), nearer, turned, hole, settings_of(EVERYTHING, [64, 48], 4), pinhole];
     settings.iter_mut().for_each(|settings| settings.view.tolerance = 1.5);
     let check = |gpu: &Gpu| -> Result<String> {
-        let mut renderer = gpu.renderer();
+        let mut renderer = gpu.renderer(&settings[0]);
         let (mut count, mut differ, mut marked) = (0, 0, 0);
         for settings in &settings {
             let depths = depths(settings);
@@ -143,7 +143,7 @@ fn the_error_is_that_of_the_samples() {
         })
         .collect();
     let check = |gpu: &Gpu| -> Result<String> {
-        let mut renderer = gpu.renderer();
+        let mut renderer = gpu.renderer(&settings);
         let got = shown(&mut renderer, &settings)?;
         let film = renderer.read_film()?;
         let off = film.iter().zip(&plain).filter(|(a, b)| (a[1] - b[1]).abs() > 1e-5).count();

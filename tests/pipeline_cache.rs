@@ -131,7 +131,7 @@ fn the_library_keeps_pipelines_only_where_it_is_told_to() {
     for _ in 0..2 {
         let gpu = Gpu::new();
         gpu.device().keep_pipelines_in(folder.path());
-        let mut renderer = Renderer::new(gpu.device()).expect("a renderer");
+        let mut renderer = Renderer::new(gpu.device(), &settings).expect("a renderer");
         assert_eq!(plain, common::render(&mut renderer, &settings).expect("a film"));
         drop(renderer);
     }

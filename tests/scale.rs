@@ -86,7 +86,7 @@ const SHARE_AN_UNIT: f64 = 1e-6;
 
 /// The largest share of a picture's samples that are not the oracle's.
 fn hold(gpu: &Gpu, places: &[Place]) -> Result<String> {
-    let mut renderer: Renderer = gpu.renderer();
+    let mut renderer: Renderer = gpu.renderer(&still_life(places[0]));
     let mut largest = 0.0_f64;
     for place in places {
         let (share, brightness) = match verify(&mut renderer, &still_life(*place)) {
@@ -188,7 +188,7 @@ fn from_afar_no_child_is_met_that_is_not_there() {
     }
     let settings = settings_of(&toml, [32, 24], 1);
     let check = |gpu: &Gpu| -> Result<String> {
-        let mut renderer = gpu.renderer();
+        let mut renderer = gpu.renderer(&settings);
         common::render(&mut renderer, &settings)?;
         let rejected = renderer.progress().rejected_samples;
         ensure!(rejected == 0, "{rejected} of 768 samples are given up");

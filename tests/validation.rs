@@ -5,8 +5,9 @@ mod common;
 use common::{Gpu, run, small};
 use std::sync::Arc;
 use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush, lens_constants};
-use thinlens::passes::{Accumulate, Adaptive, BlueNoiseTile, Opening, SceneBuffers, Trace};
-use thinlens::renderer::schedule::Pass;
+use thinlens::passes::{Accumulate, Adaptive, ApertureBuffers, BlueNoiseTile, SceneBuffers, Trace};
+use thinlens::renderer::Renderer;
+use thinlens::renderer::schedule::Batch;
 use thinlens::vulkan::{Buffer, Commands, Image, Instance, Residence};
 
 /// Catches a layer that is asked for but not on: a copy beyond a buffer's end must be reported.
@@ -39,21 +40,21 @@ fn record_two_passes(gpu: &Gpu, barrier: bool) {
         Trace::new(device, Trace::SHADER, &constants, &scene, &tile).expect("trace"),
         Accumulate::new(device, Accumulate::SHADER, &constants, &tile).expect("accumulate"),
     );
-    let opening = Opening::new(device, &[]).expect("an opening");
+    let aperture = ApertureBuffers::new(device, &[]).expect("an aperture");
     let adaptive = Adaptive::new(device, None).expect("images");
-    let traced = trace.bind(&scene, &opening, &batch, &counters, &adaptive, 0).expect("bindings");
+    let traced = trace.bind(&scene, &aperture, &batch, &counters, &adaptive, 0).expect("bindings");
     let accumulated = accumulate.bind(&batch, &film, &adaptive, 0).expect("bindings");
 
-    let pass = Pass::whole(0, 1, 1);
+    let sample = Batch::whole(0, 1, 1);
     let trace_push = TracePush {
         camera: Camera::new(estimator),
-        lattice: pass.lattice(estimator.size),
+        lattice: sample.lattice(estimator.size),
         seed: 0,
         max_bounces: 0,
         first_sample: 0,
         sample_count: 1,
     };
-    let lattice = pass.lattice(estimator.size);
+    let lattice = sample.lattice(estimator.size);
     let accumulate_push = AccumulatePush { lattice, seed: 0, first_sample: 0, jitter: 1.0, reach: 0 };
     let mut commands = Commands::new(device).expect("commands");
     let mut recording = commands.begin().expect("a recording");
@@ -156,8 +157,7 @@ fn a_picture_too_large_for_the_device_is_refused_in_words() {
     let mut settings = small("suffern-boxes");
     settings.estimator.size = [8192, 4096];
     settings.estimator.noise_threshold = 0.02;
-    let mut renderer = gpu.renderer();
-    if let Err(error) = renderer.set(&settings) {
+    if let Err(error) = Renderer::new(gpu.device(), &settings) {
         let told = error.to_string();
         let parts = ["active pixels", "134217732 bytes", "maxStorageBufferRange", "--noise-threshold"];
         assert!(parts.iter().all(|part| told.contains(part)), "{told}");

@@ -34,15 +34,22 @@ pub(super) struct Graphics {
 }
 
 impl Graphics {
-    pub(super) fn new(window: &Arc<Window>, instance: &Arc<Instance>, device: Option<&str>) -> Result<Self> {
+    pub(super) fn new(
+        window: &Arc<Window>,
+        instance: &Arc<Instance>,
+        device: Option<&str>,
+        settings: &Settings,
+    ) -> Result<Self> {
         let surface = Surface::new(instance, window)?;
         let device = Device::open(instance, device, Some(&surface))?;
         device.keep_pipelines();
+        let mut renderer = Renderer::new(&device, settings)?;
+        renderer.prepare_answers()?;
         Ok(Self {
             overlay: None,
             swapchain: None,
             held: None,
-            renderer: Renderer::new(&device)?,
+            renderer,
             frames: [Commands::new(&device)?, Commands::new(&device)?],
             next_frame: 0,
             asked: [false; FRAMES_IN_FLIGHT],
@@ -112,11 +119,11 @@ impl Graphics {
         self.renderer.set(settings)
     }
 
-    /// Holds the picture as it is now, to compare others with. False where there is none.
-    pub(super) fn hold(&mut self) -> Result<bool> {
+    /// Holds the picture as it is now, to compare others with.
+    pub(super) fn hold(&mut self) -> Result<()> {
         self.device.wait_idle()?;
-        self.held = self.renderer.hold_picture()?;
-        Ok(self.held.is_some())
+        self.held = Some(self.renderer.hold_picture()?);
+        Ok(())
     }
 
     /// Saves the picture as it is now: that of so many samples as it has.
@@ -191,20 +198,17 @@ impl Graphics {
         }
         self.renderer.record_resolve(&mut recording);
         if let Some(question) = question {
-            self.renderer.record_pick(&mut recording, frame, question)?;
-            self.asked[frame] = true;
+            self.asked[frame] = self.renderer.record_pick(&mut recording, frame, question);
         }
 
-        if let Some(picture) = self.renderer.picture() {
-            let left = self.held.as_ref().map(|held| (held, split));
-            swapchain.begin_drawing(&mut recording, image, picture, left);
-            if let Some(overlay) = &mut self.overlay {
-                overlay.cmd_draw(recording.raw(), panel).map_err(overlay_error)?;
-            }
-            self.window.pre_present_notify();
-            if !swapchain.present(recording, image)? {
-                self.swapchain = None;
-            }
+        let left = self.held.as_ref().map(|held| (held, split));
+        swapchain.begin_drawing(&mut recording, image, self.renderer.picture(), left);
+        if let Some(overlay) = &mut self.overlay {
+            overlay.cmd_draw(recording.raw(), panel).map_err(overlay_error)?;
+        }
+        self.window.pre_present_notify();
+        if !swapchain.present(recording, image)? {
+            self.swapchain = None;
         }
         Ok(())
     }

@@ -11,6 +11,7 @@ use super::ui::{Action, Panel, State, Status};
 use super::{keys, memory};
 use crate::error::{Error, Result};
 use crate::renderer::Pace;
+use crate::scene::MAX_EXTENT;
 use crate::vulkan::Instance;
 use imgui_winit_support::{HiDpiMode, WinitPlatform};
 use std::path::Path;
@@ -211,7 +212,10 @@ impl Open {
             .with_inner_size(PhysicalSize::new(width, height));
         let window = event_loop.create_window(attributes);
         let window = Arc::new(window.map_err(|error| Error::Window(error.to_string()))?);
-        let graphics = Graphics::new(&window, instance, options.device.device.as_deref())?;
+        let mut panel = Panel::new(options);
+        let size = window.inner_size();
+        panel.settings.estimator.size = [size.width, size.height].map(|extent| extent.clamp(1, MAX_EXTENT));
+        let graphics = Graphics::new(&window, instance, options.device.device.as_deref(), &panel.settings)?;
 
         let mut imgui = imgui::Context::create();
         imgui.set_ini_filename(memory::file("windows.ini"));
@@ -223,7 +227,6 @@ impl Open {
             imgui::ConfigFlags::NAV_ENABLE_KEYBOARD | imgui::ConfigFlags::DOCKING_ENABLE;
         let mut platform = WinitPlatform::new(&mut imgui);
         platform.attach_window(imgui.io_mut(), &window, HiDpiMode::Default);
-        let panel = Panel::new(options);
         let mut open = Self {
             graphics,
             platform,
@@ -360,9 +363,8 @@ impl Open {
 
         self.panel.settings.estimator.size = size;
         if let Err(error) = self.graphics.set(&self.panel.settings) {
-            // A scene that does not fit, say. If what was there before fails too, it is over.
+            // A scene that does not fit, say. The renderer still has what it had.
             self.panel.refuse(&error);
-            self.graphics.set(&self.panel.settings)?;
         }
         self.panel.accept();
         if !self.dragging {
@@ -428,9 +430,8 @@ impl Open {
             self.panel.held = None;
             return self.graphics.let_go();
         }
-        if self.graphics.hold()? {
-            self.panel.hold();
-        }
+        self.graphics.hold()?;
+        self.panel.hold();
         Ok(())
     }
 

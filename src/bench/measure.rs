@@ -98,7 +98,7 @@ fn from_start(picture: &Settings, choice: &DeviceChoice, runs: u32) -> Result<Ve
         let instance = Instance::new(choice.validation, None)?;
         let device = Device::open(&instance, choice.device.as_deref(), None)?;
         device.keep_pipelines();
-        let mut renderer = Renderer::new(&device)?;
+        let mut renderer = Renderer::new(&device, picture)?;
         let seconds = first_picture(&mut renderer, picture, started)?;
         drop((renderer, device));
         instance.check_validation()?;

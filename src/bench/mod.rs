@@ -79,9 +79,9 @@ pub fn run(job: &Job) -> Result<()> {
         say(&report.heading())?;
     }
     let variants = variants();
-    let mut renderer = Renderer::new(&device)?;
     for picture in &job.pictures {
         eprintln!("measuring {} ...", picture.estimator.scene.name);
+        let mut renderer = Renderer::new(&device, picture)?;
         let scene = measure::scene(&mut renderer, picture, &variants, job)?;
         if table {
             say(&scene.table())?;
@@ -93,6 +93,6 @@ pub fn run(job: &Job) -> Result<()> {
         None if !table => say(report.json().trim_end())?,
         None => {}
     }
-    drop((renderer, device));
+    drop(device);
     instance.check_validation()
 }

@@ -92,7 +92,6 @@ fn focus(renderer: &mut Renderer, settings: &Settings, place: Place) -> Result<S
     };
     let mut focused = settings.clone();
     focused.estimator.lens.focal_distance = surface.depth as f32;
-    focused.check()?;
     Ok(focused)
 }
 
@@ -102,13 +101,12 @@ fn render_on(instance: &Arc<Instance>, job: &Job, format: PictureFormat) -> Resu
     let device = Device::open(instance, job.device.device.as_deref(), None)?;
     device.keep_pipelines();
     let [width, height] = job.settings.estimator.size;
-    let mut renderer = Renderer::new(&device)?;
-    renderer.set(&job.settings)?;
-    let settings = match job.autofocus {
-        Some(place) => focus(&mut renderer, &job.settings, place)?,
-        None => job.settings.clone(),
-    };
-    renderer.set(&settings)?;
+    let mut renderer = Renderer::new(&device, &job.settings)?;
+    let mut settings = job.settings.clone();
+    if let Some(place) = job.autofocus {
+        settings = focus(&mut renderer, &settings, place)?;
+        renderer.set(&settings)?;
+    }
     if let Some(warning) = settings.estimator.too_coarse() {
         log::warn!("{warning}");
     }

@@ -52,7 +52,7 @@ fn sweep_on(instance: &Arc<Instance>, job: &SweepJob, pictures: &[Settings], mut
     let output = PendingFile::create(&job.output)?;
     let device = Device::open(instance, job.device.device.as_deref(), None)?;
     device.keep_pipelines();
-    let mut renderer = Renderer::new(&device)?;
+    let mut renderer = Renderer::new(&device, &pictures[0])?;
     let [width, height] = job.settings.estimator.size;
     let pixels = u64::from(width) * u64::from(height);
     let samples = job.settings.samples;

@@ -30,25 +30,20 @@ impl Accumulate {
         Ok(Self { pipeline: ComputePipeline::new(device, shader, estimator)?, tile: tile.clone() })
     }
 
-    /// Width and height of a workgroup: tiles are cut at multiples of it.
-    pub fn local_size(&self) -> [u32; 2] {
-        self.pipeline.local_size()
-    }
-
-    /// From the tracing image `batch` into `film`. Once some pixels have stopped, `list` of `adaptive` holds
+    /// From the tracing image `traced` into `film`. Once some pixels have stopped, `list` of `adaptive` holds
     /// those to merge.
     ///
     /// # Errors
     /// What Vulkan says.
     pub fn bind(
         &self,
-        batch: &Arc<Image>,
+        traced: &Arc<Image>,
         film: &Arc<Image>,
         adaptive: &Adaptive,
         list: usize,
     ) -> Result<BindingSet> {
-        let moments = [adaptive.bind_batch_moments(), adaptive.bind_film_moments()];
-        let images = adaptive.bind_images(batch, film, list);
+        let moments = [adaptive.bind_traced_moments(), adaptive.bind_film_moments()];
+        let images = adaptive.bind_images(traced, film, list);
         BindingSet::new(&self.pipeline, &[&images[..], &moments, &[self.tile.binding()]].concat())
     }
 

@@ -49,16 +49,16 @@ impl Adaptive {
         &self.lists[list]
     }
 
-    /// What the passes from the tracing image `batch` into `film` have in common: both, and the list that is
+    /// What the passes from the tracing image `traced` into `film` have in common: both, and the list that is
     /// read.
     pub(super) fn bind_images(
         &self,
-        batch: &Arc<Image>,
+        traced: &Arc<Image>,
         film: &Arc<Image>,
         list: usize,
     ) -> [(u32, Binding); 3] {
         [
-            (binding::TRACED_IMAGE, Binding::Image(Arc::clone(batch))),
+            (binding::TRACED_IMAGE, Binding::Image(Arc::clone(traced))),
             (binding::FILM_IMAGE, Binding::Image(Arc::clone(film))),
             self.bind_active(list),
         ]
@@ -83,7 +83,7 @@ impl Adaptive {
         (binding::BRIGHTEST, Binding::Buffer(Arc::clone(&self.brightest)))
     }
 
-    pub(super) fn bind_batch_moments(&self) -> (u32, Binding) {
+    pub(super) fn bind_traced_moments(&self) -> (u32, Binding) {
         (binding::TRACED_MOMENTS, Binding::Image(Arc::clone(&self.moments[0])))
     }
 

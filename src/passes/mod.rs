@@ -5,23 +5,25 @@
 
 mod accumulate;
 mod adaptive;
+mod aperture;
 mod blue_noise;
 mod geometry;
-mod opening;
 mod pick;
 mod resolve;
+mod scene_buffers;
 mod select;
 mod trace;
 
 pub use accumulate::Accumulate;
 pub use adaptive::Adaptive;
+pub use aperture::ApertureBuffers;
 pub use blue_noise::BlueNoiseTile;
 pub use geometry::Geometry;
-pub use opening::Opening;
-pub use pick::Pick;
-pub use resolve::Resolve;
+pub use pick::{Pick, PickBindings};
+pub use resolve::{Resolve, ResolveKind};
+pub use scene_buffers::SceneBuffers;
 pub use select::Select;
-pub use trace::{SceneBuffers, Trace};
+pub use trace::Trace;
 
 use crate::vulkan::Shader;
 

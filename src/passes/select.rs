@@ -21,25 +21,20 @@ impl Select {
         Ok(Self(ComputePipeline::new(device, shader, estimator)?))
     }
 
-    /// Width and height of a workgroup: tiles are cut at multiples of it.
-    pub fn local_size(&self) -> [u32; 2] {
-        self.0.local_size()
-    }
-
     /// From the pixels that `list` of `adaptive` holds, by `film`, to the other list. In the tracing image
-    /// `batch` those that stop are emptied.
+    /// `traced` those that stop are emptied.
     ///
     /// # Errors
     /// What Vulkan says.
     pub fn bind(
         &self,
-        batch: &Arc<Image>,
+        traced: &Arc<Image>,
         film: &Arc<Image>,
         adaptive: &Adaptive,
         list: usize,
     ) -> Result<BindingSet> {
         let others = [adaptive.bind_kept(1 - list), adaptive.bind_film_moments(), adaptive.bind_brightest()];
-        BindingSet::new(&self.0, &[&adaptive.bind_images(batch, film, list)[..], &others].concat())
+        BindingSet::new(&self.0, &[&adaptive.bind_images(traced, film, list)[..], &others].concat())
     }
 
     /// Chooses among `extent` pixels of the push constants' lattice.

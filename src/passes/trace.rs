@@ -1,151 +1,16 @@
 //! Traces a batch of samples for each pixel of a lattice into the tracing image.
 
-use super::{Adaptive, BlueNoiseTile, Opening};
-use crate::error::{Error, Result};
-use crate::gpu_types::{SceneData, TracePush};
-use crate::interface::{SPELLED_OUT_STACK, STACK_INDEX_BITS, binding, constant, shape};
-use crate::vulkan::{
-    Binding, BindingSet, Buffer, ComputePipeline, Device, Image, Recording, Shader, TexelBuffer, shader,
-};
-use bytemuck::Pod;
+use super::{Adaptive, ApertureBuffers, BlueNoiseTile, SceneBuffers};
+use crate::error::Result;
+use crate::gpu_types::TracePush;
+use crate::interface::binding;
+use crate::vulkan::{Binding, BindingSet, Buffer, ComputePipeline, Device, Image, Recording, Shader, shader};
 use std::sync::Arc;
 
 /// Pass 1. See `shaders/trace.comp`.
 pub struct Trace {
     pipeline: ComputePipeline,
     tile: BlueNoiseTile,
-}
-
-/// With more shapes in lists, materials or lights than these the scene is not copied: what would be
-/// unrolled grows too long.
-const MOST_KEPT: usize = 64;
-
-/// The stack of bvh.glsl has so many bits for the index of a record.
-const MOST_RECORDS: usize = 1 << STACK_INDEX_BITS;
-
-/// The bits of a sample index, which the Sobol sequence goes through, and the searches in an aperture's image.
-const SAMPLER_LOOP_STEPS: u64 = 24 + 16;
-
-/// A scene on the device.
-pub struct SceneBuffers {
-    bindings: Vec<(u32, Binding)>,
-    constants: Vec<(u32, u32)>,
-    /// Whether any material mirrors.
-    reflects: bool,
-}
-
-impl SceneBuffers {
-    /// Uploads a scene.
-    ///
-    /// # Errors
-    /// [`Error::Limit`] where it has more shapes than a tree can hold, [`Error::Memory`], or what Vulkan says.
-    pub fn new(device: &Arc<Device>, scene: &SceneData) -> Result<Self> {
-        let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
-        if scene.records.len() > MOST_RECORDS {
-            return Err(Error::Limit {
-                what: "the list of shapes and the nodes of their tree",
-                unit: "records",
-                wanted: scene.records.len() as u64,
-                most: MOST_RECORDS as u64,
-                limit: "of thinlens itself".into(),
-                advice: "use fewer shapes",
-            });
-        }
-        let traits = device.traits();
-        let steps = scene.list_begin.min(traits.max_tree_steps.unwrap_or(u32::MAX));
-        let listed = scene.records.len() - scene.list_begin as usize;
-        let few = listed.max(scene.materials.len()).max(scene.lights.len()) <= MOST_KEPT;
-        let kept = traits.keeps_scene && few;
-        let bindings = vec![
-            (binding::MATERIALS, buffer(device, "materials", &scene.materials)?),
-            (binding::LIGHTS, buffer(device, "lights", &scene.lights)?),
-            (binding::ENVIRONMENT, buffer(device, "environment", &[scene.environment])?),
-            (binding::RECORDS, texels(device, "shapes", &scene.records)?),
-            (binding::CORNER_NORMALS, texels(device, "corner normals", &scene.normals)?),
-            (binding::VELOCITIES, texels(device, "velocities", &scene.velocities)?),
-        ];
-        let mut constants = vec![
-            (constant::LIGHT_COUNT, count(scene.lights.len())),
-            (constant::SHADOW_LIGHT_COUNT, count(scene.shadow_lights)),
-            (constant::MATERIAL_COUNT, count(scene.materials.len().max(1))),
-            (constant::SCENE_IS_KEPT, kept.into()),
-            (constant::SCENE_MOVES, scene.moves.into()),
-            (constant::SCENE_IS_SHIFTED, scene.shifted.into()),
-            (constant::TREE_DEPTH, scene.tree_depth),
-            (constant::LIST_BEGIN, scene.list_begin),
-            (constant::SHAPE_KINDS, scene.kinds),
-            (constant::HAS_CORNER_NORMALS, (!scene.normals.is_empty()).into()),
-            (constant::MOST_TREE_STEPS, steps),
-        ];
-        constants.extend((constant::SHAPE_END..).zip(scene.list_ends));
-        let reflects = scene.materials.iter().any(|material| material.reflectance != [0.0; 3]);
-        Ok(Self { bindings, constants, reflects })
-    }
-
-    fn constant(&self, id: u32) -> u32 {
-        self.constants.iter().find(|(of, _)| *of == id).map_or(0, |(_, value)| *value)
-    }
-
-    /// The most rays that one sample can need: at each surface one onwards and one to each light.
-    pub fn most_rays(&self, max_bounces: u32) -> u32 {
-        self.most_surfaces(max_bounces).saturating_mul(1 + self.constant(constant::LIGHT_COUNT))
-    }
-
-    /// How often the loops of the trace pass can go round for one sample: over shapes for each ray,
-    /// over lights and reflections, and in the sampler.
-    pub fn most_loop_steps(&self, max_bounces: u32) -> u64 {
-        let of = |id| u64::from(self.constant(id));
-        let too_deep = of(constant::TREE_DEPTH).saturating_sub(SPELLED_OUT_STACK.into());
-        let tree = of(constant::MOST_TREE_STEPS) * (1 + too_deep);
-        let shapes = u64::from(self.listed_shapes()) + tree;
-        let lights = of(constant::LIGHT_COUNT);
-        SAMPLER_LOOP_STEPS + u64::from(self.most_surfaces(max_bounces)) * (1 + shapes + lights * (1 + shapes))
-    }
-
-    /// What the most steps of a sample come from.
-    pub fn most_steps_in_words(&self, max_bounces: u32) -> String {
-        let of = |id| self.constant(id);
-        // The range of the unbounded kinds is the last.
-        let bounded = of(constant::SHAPE_END + shape::FIRST_UNBOUNDED - 1);
-        let planes = self.listed_shapes() - bounded;
-        let shapes = match bounded {
-            0 => format!("up to {} steps in the tree of shapes", of(constant::MOST_TREE_STEPS)),
-            listed => format!("{listed} shapes"),
-        };
-        let reflections = self.most_surfaces(max_bounces) - 1;
-        let lights = of(constant::LIGHT_COUNT);
-        format!(
-            "{reflections} reflections (--max-bounces), {lights} lights at each surface, and for every ray {planes} \
-             planes and {shapes}"
-        )
-    }
-
-    /// The number of shapes in the list.
-    fn listed_shapes(&self) -> u32 {
-        self.constant(constant::SHAPE_END + shape::NAMES.len() as u32 - 1)
-    }
-
-    fn most_surfaces(&self, max_bounces: u32) -> u32 {
-        if self.reflects { 1 + max_bounces } else { 1 }
-    }
-
-    /// Every binding of `shaders/scene/scene.glsl` and `bvh.glsl`.
-    pub fn bindings(&self) -> Vec<(u32, Binding)> {
-        self.bindings.clone()
-    }
-
-    /// Every specialization constant of `shaders/scene/scene.glsl` and `bvh.glsl`.
-    pub fn constants(&self) -> &[(u32, u32)] {
-        &self.constants
-    }
-}
-
-fn buffer<T: Pod>(device: &Arc<Device>, name: &'static str, elements: &[T]) -> Result<Binding> {
-    Ok(Binding::Buffer(Arc::new(Buffer::upload(device, name, elements)?)))
-}
-
-fn texels<T: Pod>(device: &Arc<Device>, name: &'static str, elements: &[T]) -> Result<Binding> {
-    Ok(Binding::Texels(Arc::new(TexelBuffer::upload(device, name, elements)?)))
 }
 
 impl Trace {
@@ -169,7 +34,7 @@ impl Trace {
         Ok(Self { pipeline, tile: tile.clone() })
     }
 
-    /// From `scene`, seen through `opening`, into the tracing image `batch`, counting into `counters`. Once some
+    /// From `scene`, seen through `aperture`, into the tracing image `traced`, counting into `counters`. Once some
     /// pixels have stopped, `list` of `adaptive` holds those to trace.
     ///
     /// # Errors
@@ -177,27 +42,22 @@ impl Trace {
     pub fn bind(
         &self,
         scene: &SceneBuffers,
-        opening: &Opening,
-        batch: &Arc<Image>,
+        aperture: &ApertureBuffers,
+        traced: &Arc<Image>,
         counters: &Arc<Buffer>,
         adaptive: &Adaptive,
         list: usize,
     ) -> Result<BindingSet> {
         let mut bindings = scene.bindings();
-        bindings.extend(opening.bindings());
+        bindings.extend(aperture.bindings());
         bindings.extend([
-            (binding::TRACED_IMAGE, Binding::Image(Arc::clone(batch))),
+            (binding::TRACED_IMAGE, Binding::Image(Arc::clone(traced))),
             (binding::COUNTERS, Binding::Buffer(Arc::clone(counters))),
             adaptive.bind_active(list),
-            adaptive.bind_batch_moments(),
+            adaptive.bind_traced_moments(),
             self.tile.binding(),
         ]);
         BindingSet::new(&self.pipeline, &bindings)
-    }
-
-    /// Width and height of a workgroup: tiles are cut at multiples of it.
-    pub fn local_size(&self) -> [u32; 2] {
-        self.pipeline.local_size()
     }
 
     /// Traces `extent` pixels of the push constants' lattice.

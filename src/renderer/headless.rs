@@ -1,6 +1,6 @@
 //! Rendering without a window, and reading the images back.
 
-use super::film::Film;
+use super::film::FilmImages;
 use super::schedule::Stage;
 use super::{Pace, Progress, Renderer};
 use crate::error::Result;
@@ -28,7 +28,7 @@ impl Renderer {
     /// # Errors
     /// What Vulkan says.
     pub fn render_at(&mut self, pace: Pace, mut on_progress: impl FnMut(&Progress)) -> Result<()> {
-        let mut commands = Commands::new(&self.device)?;
+        let mut commands = Commands::new(&self.preparer.device)?;
         while !self.finished() {
             let mut recording = commands.begin()?;
             self.record(&mut recording, 0, pace);
@@ -45,8 +45,10 @@ impl Renderer {
     /// # Errors
     /// [`crate::error::Error::Memory`], or what Vulkan says.
     pub fn read_film(&mut self) -> Result<Vec<[f32; 4]>> {
-        let bytes =
-            self.read_image(|film| &film.film, |renderer, recording| renderer.record_clear(recording, true))?;
+        let bytes = self.read_image(
+            |images| &images.film,
+            |renderer, recording| renderer.record_clear(recording, true),
+        )?;
         Ok(bytemuck::allocation::pod_collect_to_vec(&bytes))
     }
 
@@ -56,26 +58,22 @@ impl Renderer {
     /// [`crate::error::Error::Memory`], or what Vulkan says.
     pub fn read_picture(&mut self) -> Result<Vec<u8>> {
         self.read_image(
-            |film| &film.picture,
+            |images| &images.picture,
             |renderer, recording| renderer.record_resolve_as(recording, false),
         )
     }
 
-    /// Ends the merging under way, if any, so that all pixels of the film have the samples of whole passes.
+    /// Ends the merging under way, if any, so that all pixels of the film have the samples of whole batches.
     ///
     /// # Errors
     /// What Vulkan says.
     pub fn settle(&mut self) -> Result<()> {
-        let Some(estimator) = self.settings.as_ref().map(|settings| settings.estimator.clone()) else {
-            return Ok(());
-        };
-        let mut commands = Commands::new(&self.device)?;
+        let mut commands = Commands::new(&self.preparer.device)?;
         let mut recording = commands.begin()?;
         recording.barrier();
-        while let Some(cursor) = self.cursor.filter(|cursor| cursor.stage == Stage::Accumulate) {
-            if self.record_tile(&mut recording, &estimator, cursor, u64::MAX, true).is_none() {
-                break;
-            }
+        while let Some(cursor) = self.standing.cursor.filter(|cursor| cursor.stage == Stage::Accumulate) {
+            let tile = self.tile(cursor, u64::MAX, true);
+            self.record_tile(&mut recording, &tile);
         }
         recording.submit()?;
         commands.wait()
@@ -85,43 +83,37 @@ impl Renderer {
     ///
     /// # Errors
     /// [`crate::error::Error::Memory`], or what Vulkan says.
-    pub fn hold_picture(&mut self) -> Result<Option<Image>> {
-        let Some(extent) = self.picture().map(Image::extent) else {
-            return Ok(None);
-        };
-        let held = Image::rgba8(&self.device, "held picture", extent)?;
-        let mut commands = Commands::new(&self.device)?;
+    pub fn hold_picture(&mut self) -> Result<Image> {
+        let held = Image::rgba8(&self.preparer.device, "held picture", self.picture().extent())?;
+        let mut commands = Commands::new(&self.preparer.device)?;
         let mut recording = commands.begin()?;
         recording.clear(&held);
         recording.barrier();
         self.record_resolve(&mut recording);
-        if let Some(picture) = self.picture() {
-            recording.copy_to_image(picture, &held);
-        }
+        recording.copy_to_image(self.picture(), &held);
         recording.submit()?;
         commands.wait()?;
-        Ok(Some(held))
+        Ok(held)
     }
 
     /// Reads an image back, once `prepare` is recorded.
     fn read_image(
         &mut self,
-        choose: impl FnOnce(&Film) -> &Image,
+        choose: impl FnOnce(&FilmImages) -> &Image,
         prepare: impl FnOnce(&mut Self, &mut Recording<'_>),
     ) -> Result<Vec<u8>> {
-        let mut commands = Commands::new(&self.device)?;
+        let mut commands = Commands::new(&self.preparer.device)?;
         let mut recording = commands.begin()?;
         recording.barrier();
         prepare(self, &mut recording);
         recording.submit()?;
         commands.wait()?;
-        let Some(image) = self.film.as_ref().map(choose) else {
-            return Ok(Vec::new());
-        };
+        let image = choose(&self.loaded.images);
         let [_, height] = image.extent();
         let row = image.byte_len() / u64::from(height);
         let rows = u32::try_from(READ_AT_ONCE / row).unwrap_or(height).clamp(1, height);
-        let buffer = Buffer::new(&self.device, "read-back", row * u64::from(rows), Residence::Staging)?;
+        let buffer =
+            Buffer::new(&self.preparer.device, "read-back", row * u64::from(rows), Residence::Staging)?;
         let mut bytes = Vec::with_capacity(usize::try_from(image.byte_len()).unwrap_or(0));
         for first in (0..height).step_by(rows as usize) {
             let count = rows.min(height - first);

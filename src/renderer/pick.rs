@@ -2,11 +2,11 @@
 
 use super::Renderer;
 use crate::error::Result;
-use crate::gpu_types::{Camera, PickPush, lens_constants};
+use crate::gpu_types::{Camera, PickPush};
 use crate::interface::MISS;
 use crate::passes::Pick;
-use crate::scene::{self, SceneRef};
-use crate::vulkan::{Commands, FRAMES_IN_FLIGHT, Recording};
+use crate::scene;
+use crate::vulkan::{Commands, Recording};
 use glam::{DVec3, Vec3};
 
 /// A place of the picture, and how many rays are of interest there.
@@ -66,7 +66,6 @@ pub struct Surface {
 #[derive(Debug, Clone)]
 pub(super) struct Asked {
     question: Question,
-    scene: SceneRef,
     camera: scene::Camera,
 }
 
@@ -91,32 +90,14 @@ impl Picked {
 
 impl Renderer {
     /// Records a question. A place outside the picture is moved to its edge, and no more rays are traced than
-    /// [`Pick`] has room for. [`Renderer::picked`] has the answer once the commands of `frame` are done.
-    ///
-    /// # Errors
-    /// What Vulkan says.
-    pub fn record_pick(
-        &mut self,
-        recording: &mut Recording<'_>,
-        frame: usize,
-        question: Question,
-    ) -> Result<()> {
-        let Some(settings) = self.settings.clone() else {
-            return Ok(());
+    /// [`Pick`] has room for. [`Renderer::picked`] has the answer once the commands of `frame` are done. False where
+    /// nothing was prepared for questions: then none is recorded.
+    pub fn record_pick(&mut self, recording: &mut Recording<'_>, frame: usize, question: Question) -> bool {
+        self.record_aperture(recording);
+        let Some(pick) = &mut self.loaded.passes.pick else {
+            return false;
         };
-        let estimator = &settings.estimator;
-        self.record_opening(recording, estimator);
-        let Some(loaded) = &mut self.scene else {
-            return Ok(());
-        };
-        let pick = match &mut loaded.pick {
-            Some(pick) => pick,
-            none => {
-                let (shader, constants) = (self.shaders.pick, lens_constants(estimator));
-                let (device, opening, tile) = (&self.device, &self.opening, &self.tile);
-                none.insert(Pick::new(device, shader, &constants, &loaded.buffers, opening, tile)?)
-            }
-        };
+        let estimator = &self.settings.estimator;
         let extent = estimator.size;
         // The last f32 below the extent still has a pixel.
         let inside = |axis: usize| question.position[axis].clamp(0.0, (extent[axis] as f32).next_down());
@@ -128,21 +109,21 @@ impl Renderer {
         let Question { position, fan, samples } = question;
         let push =
             PickPush { camera: Camera::new(estimator), extent, position, fan, samples, seed: estimator.seed };
+        let (bindings, asked) = &mut pick.frames[frame];
         recording.barrier();
-        pick.record(recording, frame, &push);
+        pick.pass.record(recording, bindings, &push);
         recording.barrier();
-        let (scene, camera) = (estimator.scene.clone(), estimator.camera);
-        self.questions[frame] = Some(Asked { question, scene, camera });
-        Ok(())
+        *asked = Some(Asked { question, camera: estimator.camera });
+        true
     }
 
     /// The answer of `frame`, whose commands are done: once, and none where none was asked for, or where
-    /// the scene has changed since.
+    /// something else has been loaded since.
     pub fn picked(&mut self, frame: usize) -> Option<Picked> {
-        let Asked { question, scene, camera } = self.questions[frame].take()?;
-        let loaded = self.scene.as_ref().filter(|loaded| loaded.scene == scene)?;
-        let rays = (1 + 2 * question.fan + question.samples) as usize;
-        let traced = loaded.pick.as_ref()?.read(frame, rays);
+        let (bindings, asked) = &mut self.loaded.passes.pick.as_mut()?.frames[frame];
+        let Asked { question, camera } = asked.take()?;
+        let scene = &self.settings.estimator.scene;
+        let traced = bindings.read((1 + 2 * question.fan + question.samples) as usize);
         let vector = |vector: [f32; 3]| Vec3::from_array(vector).as_dvec3();
         let rays: Vec<LensRay> = (traced.iter())
             .map(|ray| LensRay {
@@ -162,20 +143,26 @@ impl Renderer {
         Some(Picked { question, surface, focus, rays })
     }
 
+    /// Makes ready what questions need, from now on.
+    ///
+    /// # Errors
+    /// As [`Renderer::set`].
+    pub fn prepare_answers(&mut self) -> Result<()> {
+        self.answers = true;
+        self.set(&self.settings.clone())
+    }
+
     /// What is at a place of the picture, at once, without a window.
     ///
     /// # Errors
-    /// What Vulkan says.
+    /// As [`Renderer::set`].
     pub fn pick(&mut self, question: Question) -> Result<Option<Picked>> {
-        let mut commands = Commands::new(&self.device)?;
+        self.prepare_answers()?;
+        let mut commands = Commands::new(&self.preparer.device)?;
         let mut recording = commands.begin()?;
-        self.record_pick(&mut recording, 0, question)?;
+        self.record_pick(&mut recording, 0, question);
         recording.submit()?;
         commands.wait()?;
         Ok(self.picked(0))
     }
-}
-
-pub(super) fn none_asked() -> [Option<Asked>; FRAMES_IN_FLIGHT] {
-    std::array::from_fn(|_| None)
 }

@@ -1,16 +1,16 @@
 //! Which samples of which pixels are traced next. Pure numbers: no device, no time.
 //!
-//! A pass traces some samples of every pixel of a lattice. Passes are cut at fixed sample indices,
+//! A batch is some samples of every pixel of a lattice. Batches are cut at fixed sample indices,
 //! so that the same samples are averaged in the same groups however the work is tiled.
 
 use crate::gpu_types::Lattice;
 use crate::interface::{GROUP_SIZE, LISTED_ROW_GROUPS, PREVIEW_SITE, PREVIEW_STRIDE};
 
-/// Samples a pixel in one pass, once a picture is under way.
+/// Samples a pixel in one batch, once a picture is under way.
 pub const MAX_BATCH: u32 = 64;
 
-/// Where the first passes end: soon, so that there is something to see, and then less and less often, for
-/// every pass takes its start.
+/// Where the first batches end: soon, so that there is something to see, and then less and less often, for
+/// every batch takes its start.
 const FIRST_CUTS: [u32; 5] = [1, 4, 16, 32, MAX_BATCH];
 
 /// An adaptive picture chooses the pixels to go on with whenever it has so many samples a pixel more, but
@@ -25,15 +25,15 @@ pub fn selects_at(samples: u32) -> bool {
 /// Pixels of the list of active ones that a row of tiles covers, for each row of a workgroup.
 const LISTED_ROW: u32 = LISTED_ROW_GROUPS * GROUP_SIZE;
 
-/// The columns and rows that a list of so many active pixels is traced in, in workgroups of `local`.
-pub fn listed_size(pixels: u64, local: [u32; 2]) -> [u32; 2] {
-    let rows = pixels.div_ceil(u64::from(LISTED_ROW * local[1]));
-    [LISTED_ROW, u32::try_from(rows).unwrap_or(u32::MAX) * local[1]]
+/// The columns and rows that a list of so many active pixels is traced in.
+pub fn listed_size(pixels: u64) -> [u32; 2] {
+    let rows = pixels.div_ceil(u64::from(LISTED_ROW * GROUP_SIZE));
+    [LISTED_ROW, u32::try_from(rows).unwrap_or(u32::MAX) * GROUP_SIZE]
 }
 
 /// What a dispatch over the list covers, from the tile's column and row on.
-pub fn listed_lattice(size: [u32; 2], at: [u32; 2], local: [u32; 2]) -> Lattice {
-    let origin = [at[1] * LISTED_ROW + at[0] * local[1], 0];
+pub fn listed_lattice(size: [u32; 2], at: [u32; 2]) -> Lattice {
+    let origin = [at[1] * LISTED_ROW + at[0] * GROUP_SIZE, 0];
     Lattice { extent: size, origin, stride: 0, first_row: 0, row_step: 1, row_count: 1 }
 }
 
@@ -71,7 +71,7 @@ const PHASES_OF_4: [[u32; 2]; 4] = [[0, 0], [1, 1], [1, 0], [0, 1]];
 
 /// Samples `first_sample .. first_sample + sample_count` of every pixel of one lattice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Pass {
+pub struct Batch {
     /// Index of the first sample.
     pub first_sample: u32,
     /// How many.
@@ -82,7 +82,7 @@ pub struct Pass {
     pub phase: u32,
 }
 
-/// What is done with a pass, each tile by tile.
+/// What is done with a batch, each tile by tile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
     /// It is traced.
@@ -96,8 +96,8 @@ pub enum Stage {
 /// Where the work stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Cursor {
-    /// The pass under way.
-    pub pass: Pass,
+    /// The batch under way.
+    pub batch: Batch,
     /// What is done with it.
     pub stage: Stage,
     /// Column and row where the next tile starts: of the lattice while tracing, else of the film; or of the
@@ -106,31 +106,31 @@ pub struct Cursor {
 }
 
 impl Cursor {
-    /// The start of a pass.
-    pub fn start(pass: Pass) -> Self {
-        Self { pass, stage: Stage::Trace, at: [0, 0] }
+    /// The start of a batch.
+    pub fn start(batch: Batch) -> Self {
+        Self { batch, stage: Stage::Trace, at: [0, 0] }
     }
 
-    /// What follows when the pass is traced.
+    /// What follows when the batch is traced.
     pub fn after_tracing(self) -> Self {
-        match self.pass.next_phase() {
+        match self.batch.next_phase() {
             Some(next) => Self::start(next),
             None => self.stage(Stage::Accumulate),
         }
     }
 
-    /// The start of another stage of the pass.
+    /// The start of another stage of the batch.
     pub fn stage(self, stage: Stage) -> Self {
-        Self { stage, ..Self::start(self.pass) }
+        Self { stage, ..Self::start(self.batch) }
     }
 
     /// Whether it is still tracing the first lattice of its samples.
     pub fn is_first_lattice(self) -> bool {
-        self.pass.phase == 0 && self.stage == Stage::Trace
+        self.batch.phase == 0 && self.stage == Stage::Trace
     }
 }
 
-impl Pass {
+impl Batch {
     /// The batch that starts at `first_sample`, of every pixel: cut at 1, 4, 16, 32, 64 as far as
     /// `max_batch`, then at every `max_batch` samples, and at `target`.
     pub fn whole(first_sample: u32, target: u32, max_batch: u32) -> Self {
@@ -150,12 +150,12 @@ impl Pass {
         (phase < self.stride * self.stride).then_some(Self { phase, ..self })
     }
 
-    /// The sample index that the film has reached after this pass, if it is its last phase.
+    /// The sample index that the film has reached after this batch, if it is its last phase.
     pub fn end(self) -> u32 {
         self.first_sample + self.sample_count
     }
 
-    /// The stride of a lattice that is filled once this pass is done: what a preview can rely on.
+    /// The stride of a lattice that is filled once this batch is traced: what a preview can rely on.
     pub fn filled_stride(self) -> u32 {
         match (self.stride, self.phase) {
             (4, 0..3) => 4,
@@ -209,16 +209,16 @@ pub fn rows_of_pixels(lattice: &Lattice, height: u32, from: u32, rows: u32) -> u
 
 /// The columns and rows of the next tile, in a lattice of `size`, of which everything before
 /// `at` is done: as many whole rows as `pixels` allows, or else a piece of a row of workgroups.
-/// Tiles are cut at multiples of the workgroup's size `local`, and hold one workgroup at least.
-pub fn tile(size: [u32; 2], at: [u32; 2], pixels: u64, local: [u32; 2]) -> [u32; 2] {
-    let whole = |count: u64, unit: u32| u32::try_from(count).unwrap_or(u32::MAX) / unit * unit;
+/// Tiles are cut at multiples of the workgroup's size, and hold one workgroup at least.
+pub fn tile(size: [u32; 2], at: [u32; 2], pixels: u64) -> [u32; 2] {
+    let whole = |count: u64| u32::try_from(count).unwrap_or(u32::MAX) / GROUP_SIZE * GROUP_SIZE;
     let left = [0, 1].map(|axis| size[axis].saturating_sub(at[axis]));
-    let rows = whole(pixels / u64::from(size[0].max(1)), local[1]);
+    let rows = whole(pixels / u64::from(size[0].max(1)));
     if at[0] == 0 && rows > 0 {
         return [left[0], rows.min(left[1])];
     }
-    let columns = whole(pixels / u64::from(local[1]), local[0]).max(local[0]);
-    [columns.min(left[0]), local[1].min(left[1])]
+    let columns = whole(pixels / u64::from(GROUP_SIZE)).max(GROUP_SIZE);
+    [columns.min(left[0]), GROUP_SIZE.min(left[1])]
 }
 
 /// Where the next tile starts, after one of `done` columns and rows at `at`. None when the lattice
@@ -245,7 +245,7 @@ mod tests {
         let cuts = |target, max_batch| {
             let (mut cuts, mut at) = (Vec::new(), 0);
             while at < target {
-                at = Pass::whole(at, target, max_batch).end();
+                at = Batch::whole(at, target, max_batch).end();
                 cuts.push(at);
             }
             cuts
@@ -256,8 +256,8 @@ mod tests {
         assert_eq!(cuts(9, 2), [1, 2, 4, 6, 8, 9]);
         assert_eq!(cuts(3, 1), [1, 2, 3]);
         // From a count that an earlier, lower target left behind.
-        assert_eq!(Pass::whole(20, 64, 16).end(), 32);
-        assert_eq!(Pass::whole(70, 200, MAX_BATCH).end(), 128);
+        assert_eq!(Batch::whole(20, 64, 16).end(), 32);
+        assert_eq!(Batch::whole(70, 200, MAX_BATCH).end(), 128);
     }
 
     /// Catches a phase listed twice: one pixel would be sampled twice and another never.
@@ -266,15 +266,15 @@ mod tests {
         for stride in [1, 2, 4] {
             for size in [[1, 1], [7, 5], [16, 16], [13, 2]] {
                 let mut seen = HashSet::new();
-                let mut next = Some(Pass::interleaved(stride));
-                while let Some(pass) = next {
-                    let (lattice, [columns, rows]) = (pass.lattice(size), pass.lattice_size(size));
+                let mut next = Some(Batch::interleaved(stride));
+                while let Some(batch) = next {
+                    let (lattice, [columns, rows]) = (batch.lattice(size), batch.lattice_size(size));
                     for (x, y) in (0..rows).flat_map(|y| (0..columns).map(move |x| (x, y))) {
                         let pixel = [lattice.origin[0] + stride * x, lattice.origin[1] + stride * y];
                         assert!(pixel[0] < size[0] && pixel[1] < size[1]);
                         assert!(seen.insert(pixel), "{pixel:?} twice");
                     }
-                    next = pass.next_phase();
+                    next = batch.next_phase();
                 }
                 assert_eq!(seen.len(), (size[0] * size[1]) as usize);
             }
@@ -286,16 +286,16 @@ mod tests {
     fn a_filled_stride_is_filled() {
         for stride in [2, 4] {
             let mut seen = HashSet::new();
-            let mut next = Some(Pass::interleaved(stride));
-            while let Some(pass) = next {
-                seen.insert(pass.lattice([8, 8]).origin);
-                let filled = pass.filled_stride();
+            let mut next = Some(Batch::interleaved(stride));
+            while let Some(batch) = next {
+                seen.insert(batch.lattice([8, 8]).origin);
+                let filled = batch.filled_stride();
                 let site = if filled == 4 { 2 } else { 0 };
                 for (x, y) in (0..stride).flat_map(|y| (0..stride).map(move |x| (x, y))) {
                     let cell = |at: u32| (at / filled * filled + site) % stride;
-                    assert!(filled == 1 || seen.contains(&[cell(x), cell(y)]), "{pass:?}");
+                    assert!(filled == 1 || seen.contains(&[cell(x), cell(y)]), "{batch:?}");
                 }
-                next = pass.next_phase();
+                next = batch.next_phase();
             }
         }
     }
@@ -303,13 +303,12 @@ mod tests {
     /// Catches tiles that overlap, leave gaps, or are larger than they may be.
     #[test]
     fn tiles_cover_a_lattice_once_and_keep_to_their_size() {
-        let local = [8, 8];
         for size in [[0, 0], [1, 1], [8, 8], [37, 51], [200, 17]] {
             for pixels in [0, 1, 64, 500, 1 << 40] {
                 let mut seen = HashSet::new();
                 let mut next = Some([0, 0]);
                 while let Some(at) = next {
-                    let [columns, rows] = tile(size, at, pixels, local);
+                    let [columns, rows] = tile(size, at, pixels);
                     assert!(u64::from(columns) * u64::from(rows) <= pixels.max(64));
                     for (x, y) in (0..rows).flat_map(|y| (0..columns).map(move |x| (x, y))) {
                         assert!(seen.insert([at[0] + x, at[1] + y]), "{at:?} of {size:?}");
@@ -326,7 +325,7 @@ mod tests {
     #[test]
     fn rows_are_visited_once_and_everywhere() {
         for height in [1, 8, 9, 48, 63, 719, 720, 2160, 16384] {
-            let lattice = Pass::whole(0, 1, 1).lattice([64, height]);
+            let lattice = Batch::whole(0, 1, 1).lattice([64, height]);
             let count = lattice.row_count;
             let visited: HashSet<_> = (0..count).map(|visit| lattice.visited_row(visit)).collect();
             assert_eq!(visited.len(), count as usize, "{height}");

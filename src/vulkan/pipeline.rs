@@ -152,11 +152,6 @@ impl ComputePipeline {
         self.name
     }
 
-    /// Width and height of a workgroup.
-    pub fn local_size(&self) -> [u32; 2] {
-        self.interface.local_size
-    }
-
     pub(super) fn workgroups(&self, extent: [u32; 2]) -> [u32; 2] {
         [0, 1].map(|axis| extent[axis].div_ceil(self.interface.local_size[axis]))
     }

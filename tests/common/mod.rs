@@ -58,7 +58,7 @@ impl Gpu {
         Shader { name, spirv }
     }
 
-    pub fn renderer(&self) -> Renderer {
+    pub fn renderer(&self, settings: &Settings) -> Renderer {
         let shaders = Shaders {
             trace: self.shader("trace"),
             accumulate: self.shader("accumulate"),
@@ -67,7 +67,7 @@ impl Gpu {
             pick: self.shader("pick"),
             geometry: self.shader("geometry"),
         };
-        Renderer::with_shaders(self.device(), shaders).expect("a renderer")
+        Renderer::with_shaders(self.device(), shaders, settings).expect("a renderer")
     }
 
     /// The next check wants a message that contains this, and no other.
@@ -185,7 +185,7 @@ pub fn seen(estimator: &Estimator, pixel: [u32; 2], offset: [f64; 2]) -> Option<
 
 /// Films of the same settings with the seeds `0 .. count`: r, g, b of each pixel.
 pub fn pictures(gpu: &Gpu, settings: &Settings, count: u32) -> anyhow::Result<Vec<Vec<[f64; 3]>>> {
-    let mut renderer = gpu.renderer();
+    let mut renderer = gpu.renderer(settings);
     let mut settings = settings.clone();
     let of_seed = |seed| {
         settings.estimator.seed = seed;
@@ -204,7 +204,7 @@ pub fn render(renderer: &mut Renderer, settings: &Settings) -> anyhow::Result<Ve
 
 /// Renders to the end with a renderer of its own, and gives the film.
 pub fn film(gpu: &Gpu, settings: &Settings) -> Vec<[f32; 4]> {
-    render(&mut gpu.renderer(), settings).expect("a film")
+    render(&mut gpu.renderer(settings), settings).expect("a film")
 }
 
 /// The bits of a film: equal films may differ in -0 and 0, equal bits do not.

@@ -1,4 +1,4 @@
-//! The opening that light comes in through, on the device: see `shaders/aperture/record.glsl`.
+//! The aperture on the device: see `shaders/aperture/record.glsl`.
 
 use crate::error::Result;
 use crate::gpu_types::ApertureBuffer;
@@ -6,15 +6,15 @@ use crate::interface::binding;
 use crate::vulkan::{Binding, Buffer, Device, Recording, Residence, TexelBuffer};
 use std::sync::Arc;
 
-/// What the passes read of it.
-pub struct Opening {
+/// What the passes read of an aperture.
+pub struct ApertureBuffers {
     shape: Arc<Buffer>,
     sums: Arc<TexelBuffer>,
 }
 
-impl Opening {
-    /// An opening with these running sums of its image, if it has one. Its shape is to be recorded before it
-    /// is used.
+impl ApertureBuffers {
+    /// Uploads the running sums of the aperture's image, if it has one. The shape has to be recorded before it is
+    /// used.
     ///
     /// # Errors
     /// [`crate::error::Error::Memory`], or what Vulkan says.

@@ -1,0 +1,132 @@
+//! All that a device has loaded for a picture.
+
+use super::film::{DepthImage, FilmImages};
+use super::pick::Asked;
+use super::prepared::{Prepared, Preparer};
+use crate::error::Result;
+use crate::passes::{Accumulate, Geometry, Pick, PickBindings, Resolve, Select, Trace};
+use crate::settings::Settings;
+use crate::vulkan::{BindingSet, FRAMES_IN_FLIGHT};
+use std::sync::Arc;
+
+/// What was prepared for the settings, the images of the film, and the passes between them.
+pub(super) struct Loaded {
+    pub(super) prepared: Prepared,
+    pub(super) images: FilmImages,
+    pub(super) depth: DepthImage,
+    pub(super) passes: Passes,
+}
+
+/// The passes, each with what it reads and writes.
+pub(super) struct Passes {
+    pub(super) trace: Bound<Trace>,
+    pub(super) accumulate: Bound<Accumulate>,
+    /// Of adaptive pictures.
+    pub(super) select: Option<Bound<Select>>,
+    pub(super) resolve: BoundResolve,
+    /// For overlays that show depth.
+    pub(super) geometry: Option<(Arc<Geometry>, BindingSet)>,
+    /// For questions.
+    pub(super) pick: Option<BoundPick>,
+}
+
+/// A pass of the film's pixels, and what is bound to it by the list of active pixels that is read.
+pub(super) struct Bound<P> {
+    pub(super) pass: Arc<P>,
+    pub(super) by_list: [BindingSet; 2],
+}
+
+pub(super) struct BoundResolve {
+    pub(super) without_holes: Arc<Resolve>,
+    pub(super) with_holes: Arc<Resolve>,
+    pub(super) overlay: Option<Arc<Resolve>>,
+    pub(super) film: BindingSet,
+    /// Resolves the tracing image instead of the film.
+    pub(super) preview: BindingSet,
+}
+
+/// What is asked in one of the frames in flight has a place of its own for the answer.
+pub(super) struct BoundPick {
+    pub(super) pass: Arc<Pick>,
+    pub(super) frames: [(PickBindings, Option<Asked>); FRAMES_IN_FLIGHT],
+}
+
+impl Loaded {
+    pub(super) fn new(preparer: &Preparer, settings: &Settings, prepared: Prepared) -> Result<Self> {
+        let images = FilmImages::new(&preparer.device, &settings.estimator)?;
+        let depth = DepthImage::new(&preparer.device, settings)?;
+        let passes = Passes::new(preparer, &prepared, &images, &depth)?;
+        Ok(Self { prepared, images, depth, passes })
+    }
+
+    /// Takes what was prepared for these settings, and keeps the images that fit them. What an error leaves is what
+    /// there was.
+    pub(super) fn replace(
+        &mut self,
+        preparer: &Preparer,
+        settings: &Settings,
+        prepared: Prepared,
+    ) -> Result<()> {
+        let device = &preparer.device;
+        let fits = self.images.fit(&settings.estimator);
+        let images = (!fits).then(|| FilmImages::new(device, &settings.estimator)).transpose()?;
+        let depth = (!self.depth.fits(settings)).then(|| DepthImage::new(device, settings)).transpose()?;
+        let passes = Passes::new(
+            preparer,
+            &prepared,
+            images.as_ref().unwrap_or(&self.images),
+            depth.as_ref().unwrap_or(&self.depth),
+        )?;
+        // What frames in flight use goes only when they are done.
+        device.wait_idle()?;
+        (self.passes, self.prepared) = (passes, prepared);
+        images.into_iter().for_each(|images| self.images = images);
+        depth.into_iter().for_each(|depth| self.depth = depth);
+        Ok(())
+    }
+
+    /// Whether nothing is to be replaced for these settings.
+    pub(super) fn fits(&self, settings: &Settings, answers: bool) -> bool {
+        self.prepared.fits(settings, answers)
+            && self.images.fit(&settings.estimator)
+            && self.depth.fits(settings)
+    }
+}
+
+impl Passes {
+    /// Binds everything anew, which is soon done: so nothing that was replaced stays bound.
+    fn new(preparer: &Preparer, of: &Prepared, images: &FilmImages, depth: &DepthImage) -> Result<Self> {
+        let FilmImages { traced, film, picture, adaptive, .. } = images;
+        let depth = &depth.image;
+        let resolve = &preparer.resolve_with_holes;
+        Ok(Self {
+            trace: bound(&of.trace, |list| {
+                of.trace.bind(&of.scene, &of.aperture, traced, &preparer.counters, adaptive, list)
+            })?,
+            accumulate: bound(&of.accumulate, |list| of.accumulate.bind(traced, film, adaptive, list))?,
+            select: (of.select.as_ref())
+                .map(|select| bound(select, |list| select.bind(traced, film, adaptive, list)))
+                .transpose()?,
+            resolve: BoundResolve {
+                film: resolve.bind(film, picture, depth, adaptive)?,
+                preview: resolve.bind(traced, picture, depth, adaptive)?,
+                without_holes: Arc::clone(&preparer.resolve_without_holes),
+                with_holes: Arc::clone(resolve),
+                overlay: of.resolve_overlay.clone(),
+            },
+            geometry: (of.geometry.as_ref())
+                .map(|geometry| Ok((Arc::clone(geometry), geometry.bind(&of.scene, depth)?)))
+                .transpose()?,
+            pick: (of.pick.as_ref())
+                .map(|pick| {
+                    let frame = || Ok((pick.bind(&of.scene, &of.aperture)?, None));
+                    Ok(BoundPick { pass: Arc::clone(pick), frames: [frame()?, frame()?] })
+                })
+                .transpose()?,
+        })
+    }
+}
+
+fn bound<P>(pass: &Arc<P>, bind: impl Fn(usize) -> Result<BindingSet>) -> Result<Bound<P>> {
+    Ok(Bound { pass: Arc::clone(pass), by_list: [bind(0)?, bind(1)?] })
+}

@@ -1,0 +1,190 @@
+//! What settings need on a device besides a film: pipelines and buffers. They take long to make, and any thread can
+//! make them while another one renders.
+
+use super::schedule::{self, MAX_BATCH};
+use crate::error::{Error, Result};
+use crate::gpu_types::{Counters, SceneData, aperture_sums, film_constants, lens_constants};
+use crate::passes::{
+    Accumulate, ApertureBuffers, BlueNoiseTile, Geometry, Pick, Resolve, ResolveKind, SceneBuffers, Select,
+    Shaders, Trace,
+};
+use crate::scene::{ApertureImage, Overlay, SceneRef};
+use crate::settings::{Estimator, Settings};
+use crate::vulkan::{Buffer, Device, Residence};
+use std::sync::Arc;
+
+/// Makes it. Holds what is the same for all settings.
+pub struct Preparer {
+    pub(super) device: Arc<Device>,
+    shaders: Shaders,
+    tile: BlueNoiseTile,
+    pub(super) counters: Arc<Buffer>,
+    pub(super) resolve_without_holes: Arc<Resolve>,
+    pub(super) resolve_with_holes: Arc<Resolve>,
+}
+
+/// What was made for some settings. Copies share it.
+#[derive(Clone)]
+pub struct Prepared {
+    keys: Keys,
+    pub(super) scene: Arc<SceneBuffers>,
+    pub(super) aperture: Arc<ApertureBuffers>,
+    pub(super) trace: Arc<Trace>,
+    pub(super) accumulate: Arc<Accumulate>,
+    /// For adaptive pictures.
+    pub(super) select: Option<Arc<Select>>,
+    /// For overlays.
+    pub(super) resolve_overlay: Option<Arc<Resolve>>,
+    /// For overlays that show depth.
+    pub(super) geometry: Option<Arc<Geometry>>,
+    /// For questions.
+    pub(super) pick: Option<Arc<Pick>>,
+}
+
+/// What each part is made for. A part is made anew exactly when its key changes.
+#[derive(Clone, PartialEq)]
+struct Keys {
+    scene: SceneKey,
+    /// The image of the aperture, if it has one.
+    aperture: Option<ApertureImage>,
+    /// The constants of the passes that trace rays, besides those of the scene.
+    lens: [(u32, u32); 3],
+    /// The constants of the passes that work on the film alone.
+    film: [(u32, u32); 2],
+    is_adaptive: bool,
+    overlay: Option<ResolveKind>,
+    shows_surface: bool,
+    answers: bool,
+}
+
+#[derive(Clone, PartialEq)]
+struct SceneKey {
+    scene: SceneRef,
+    /// How long the shutter is open, where something moves: the tree holds all that its shapes pass meanwhile.
+    shutter: Option<f32>,
+}
+
+impl Keys {
+    fn new(settings: &Settings, answers: bool) -> Self {
+        let Settings { estimator, view, .. } = settings;
+        let scene = estimator.scene.clone();
+        let has_moments = estimator.has_moments();
+        Self {
+            scene: SceneKey { shutter: scene.moves().then_some(estimator.shutter), scene },
+            aperture: estimator.aperture.image.clone(),
+            lens: lens_constants(estimator),
+            film: film_constants(estimator),
+            is_adaptive: estimator.is_adaptive(),
+            overlay: view.overlay.map(|_| ResolveKind::Overlay { has_moments }),
+            shows_surface: view.overlay.is_some_and(Overlay::shows_surface),
+            answers,
+        }
+    }
+}
+
+impl Preparer {
+    pub(super) fn new(device: &Arc<Device>, shaders: Shaders) -> Result<Self> {
+        let size = size_of::<Counters>() as u64;
+        let resolve = |kind| Resolve::new(device, shaders.resolve, kind).map(Arc::new);
+        Ok(Self {
+            shaders,
+            tile: BlueNoiseTile::new(device)?,
+            counters: Arc::new(Buffer::new(device, "counters", size, Residence::Device)?),
+            resolve_without_holes: resolve(ResolveKind::WithoutHoles)?,
+            resolve_with_holes: resolve(ResolveKind::WithHoles)?,
+            device: Arc::clone(device),
+        })
+    }
+
+    /// Makes what these settings need, and shares what `old` has of it. `answers`: whether questions are asked of
+    /// the picture.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] where the device cannot trace the scene, [`Error::Limit`], [`Error::Memory`], or what
+    /// Vulkan says.
+    pub fn prepare(&self, settings: &Settings, answers: bool, old: Option<&Prepared>) -> Result<Prepared> {
+        let keys = Keys::new(settings, answers);
+        let (device, shaders, tile) = (&self.device, &self.shaders, &self.tile);
+
+        let same = old.filter(|old| old.keys.scene == keys.scene);
+        let scene = share_or(same.map(|old| &old.scene), || {
+            SceneBuffers::new(device, &SceneData::new(&keys.scene.scene, settings.estimator.shutter))
+        })?;
+        // A driver may not be able to compile the passes for a scene that is refused.
+        self.largest_batch(&scene, &settings.estimator)?;
+
+        let same = old.filter(|old| old.keys.aperture == keys.aperture);
+        let aperture = share_or(same.map(|old| &old.aperture), || {
+            ApertureBuffers::new(device, &keys.aperture.as_ref().map(aperture_sums).unwrap_or_default())
+        })?;
+
+        let same_scene = old.filter(|old| old.scene.constants() == scene.constants());
+        let same = same_scene.filter(|old| old.keys.lens == keys.lens);
+        let trace = share_or(same.map(|old| &old.trace), || {
+            Trace::new(device, shaders.trace, &keys.lens, &scene, tile)
+        })?;
+        let pick = share_or_if(keys.answers, same.and_then(|old| old.pick.as_ref()), || {
+            Pick::new(device, shaders.pick, &keys.lens, &scene, tile)
+        })?;
+        let geometry =
+            share_or_if(keys.shows_surface, same_scene.and_then(|old| old.geometry.as_ref()), || {
+                Geometry::new(device, shaders.geometry, &scene)
+            })?;
+
+        let same = old.filter(|old| old.keys.film == keys.film);
+        let accumulate = share_or(same.map(|old| &old.accumulate), || {
+            Accumulate::new(device, shaders.accumulate, &keys.film, tile)
+        })?;
+        let select = share_or_if(keys.is_adaptive, same.and_then(|old| old.select.as_ref()), || {
+            Select::new(device, shaders.select, &keys.film)
+        })?;
+
+        let same = old.filter(|old| old.keys.overlay == keys.overlay);
+        let resolve_overlay = match keys.overlay {
+            Some(kind) => Some(share_or(same.and_then(|old| old.resolve_overlay.as_ref()), || {
+                Resolve::new(device, shaders.resolve, kind)
+            })?),
+            None => None,
+        };
+        Ok(Prepared { keys, scene, aperture, trace, accumulate, select, resolve_overlay, geometry, pick })
+    }
+
+    /// The largest batch that the loops of a device may go through in one invocation of the trace pass.
+    pub(super) fn largest_batch(&self, scene: &SceneBuffers, estimator: &Estimator) -> Result<u32> {
+        let steps = scene.most_loop_steps(estimator.max_bounces);
+        let Some(most) = self.device.traits().max_loop_steps else {
+            return Ok(MAX_BATCH);
+        };
+        schedule::largest_batch(steps, most).ok_or_else(|| {
+            Error::OutOfRange(format!(
+                "the scene can take {steps} steps a sample, but software devices stop at {most}: {}; use fewer of \
+                 these, or a GPU",
+                scene.most_steps_in_words(estimator.max_bounces)
+            ))
+        })
+    }
+}
+
+impl Prepared {
+    /// Whether it is all that these settings need.
+    pub(super) fn fits(&self, settings: &Settings, answers: bool) -> bool {
+        self.keys == Keys::new(settings, answers)
+    }
+}
+
+/// What there is, or else what is made.
+fn share_or<T>(there: Option<&Arc<T>>, make: impl FnOnce() -> Result<T>) -> Result<Arc<T>> {
+    match there {
+        Some(there) => Ok(Arc::clone(there)),
+        None => make().map(Arc::new),
+    }
+}
+
+/// Likewise, where it is needed.
+fn share_or_if<T>(
+    needed: bool,
+    there: Option<&Arc<T>>,
+    make: impl FnOnce() -> Result<T>,
+) -> Result<Option<Arc<T>>> {
+    needed.then(|| share_or(there, make)).transpose()
+}

@@ -1,0 +1,179 @@
+//! Records the passes, in the order of the data.
+
+use super::film::Seen;
+use super::loaded::Loaded;
+use super::schedule::{Stage, reach};
+use super::tally::Work;
+use super::tiles::Tile;
+use super::{Pace, Renderer};
+use crate::gpu_types::{
+    AccumulatePush, ApertureBuffer, Brightest, Camera, Counters, OverlayScale, ResolvePush, SelectPush,
+    TracePush,
+};
+use crate::passes::Adaptive;
+use crate::vulkan::Recording;
+
+/// Small pictures would otherwise record thousands of tiles for one submission.
+const MAX_TILES_PER_SUBMISSION: u32 = 64;
+
+impl Renderer {
+    /// Records the next batches and tiles, as many as `pace` allows. `frame` says which of the
+    /// frames in flight this is; [`Renderer::collect`] must have been called for its last use.
+    pub fn record(&mut self, recording: &mut Recording<'_>, frame: usize, pace: Pace) {
+        recording.barrier();
+        // A preview shows no more of the tracing image than what it has filled.
+        self.record_clear(recording, !pace.preview);
+        self.record_aperture(recording);
+        recording.clear_buffer(&self.preparer.counters, size_of::<Counters>() as u64);
+        self.tally.start(recording, frame);
+        let list_before = self.standing.list;
+        let done = self.record_tiles(recording, pace);
+        let list = self.standing.list.filter(|list| list_before != Some(*list));
+        let list = list.map(|list| self.loaded.images.adaptive.list(list));
+        self.tally.stop(recording, frame, done, &self.preparer.counters, list);
+    }
+
+    fn record_tiles(&mut self, recording: &mut Recording<'_>, pace: Pace) -> Work {
+        // Rays are counted in 32 bits a submission.
+        let most_rays = self.loaded.prepared.scene.most_rays(self.settings.estimator.max_bounces);
+        let budget = self.tally.work_within(pace.budget).min(u64::from(u32::MAX / most_rays));
+        let mut left = budget;
+        let mut done = Work::default();
+        let list_before = self.standing.list;
+        for _ in 0..MAX_TILES_PER_SUBMISSION {
+            if self.finished() {
+                break;
+            }
+            let cursor = self.next_cursor(left, pace.preview);
+            // The first lattice of a preview is traced whole: without it there is nothing to show.
+            let tile = self.tile(cursor, left, pace.preview && self.nothing_to_show());
+            self.record_tile(recording, &tile);
+            done.samples += tile.work.samples;
+            done.cost += tile.work.cost;
+            left = left.saturating_sub(tile.work.cost);
+            // How many pixels go on is known once this is done.
+            if self.standing.list != list_before {
+                break;
+            }
+            // The first tile is recorded whatever it costs; for a small rest no other one is.
+            if left <= budget / 8 && !(pace.preview && self.nothing_to_show()) {
+                break;
+            }
+        }
+        done
+    }
+
+    /// Records the pass that a tile is of.
+    pub(super) fn record_tile(&mut self, recording: &mut Recording<'_>, tile: &Tile) {
+        let Loaded { passes, images, .. } = &self.loaded;
+        let estimator = &self.settings.estimator;
+        let Tile { cursor, lattice, size, .. } = *tile;
+        let batch = cursor.batch;
+        let list = self.standing.list.unwrap_or_default();
+        match cursor.stage {
+            _ if tile.pixels == 0 => {}
+            // From the scene, through the aperture, to the tracing image.
+            Stage::Trace => {
+                let push = TracePush {
+                    camera: Camera::new(estimator),
+                    lattice,
+                    seed: estimator.seed,
+                    max_bounces: estimator.max_bounces,
+                    first_sample: batch.first_sample,
+                    sample_count: batch.sample_count,
+                };
+                passes.trace.pass.record(recording, &passes.trace.by_list[list], &push, size);
+            }
+            // From the tracing image to the film.
+            Stage::Accumulate => {
+                let push = AccumulatePush {
+                    lattice,
+                    seed: estimator.seed,
+                    first_sample: batch.first_sample,
+                    jitter: estimator.jitter,
+                    reach: i32::try_from(reach(estimator.jitter)).unwrap_or(i32::MAX),
+                };
+                passes.accumulate.pass.record(recording, &passes.accumulate.by_list[list], &push, size);
+            }
+            // From the film to the list of the pixels that go on.
+            Stage::Select => {
+                if cursor.at == [0, 0] {
+                    recording.clear_buffer(images.adaptive.list(1 - list), Adaptive::LIST_HEADER);
+                    if self.standing.list.is_none() {
+                        images.adaptive.record_brightest(recording, &Brightest::new(estimator));
+                    }
+                }
+                let [cell, ..] = Brightest::grid(estimator.size);
+                let push = SelectPush { lattice, threshold: estimator.noise_threshold, cell };
+                if let Some(select) = &passes.select {
+                    select.pass.record(recording, &select.by_list[list], &push, size);
+                }
+            }
+        }
+        if tile.next.is_none() {
+            recording.barrier();
+        }
+        self.advance(tile);
+    }
+
+    /// Records the resolve pass, if the picture is not up to date.
+    pub fn record_resolve(&mut self, recording: &mut Recording<'_>) {
+        self.record_resolve_as(recording, self.blue_first);
+    }
+
+    pub(super) fn record_resolve_as(&mut self, recording: &mut Recording<'_>, blue_first: bool) {
+        self.record_clear(recording, true);
+        self.record_depth(recording);
+        let resolve = &self.loaded.passes.resolve;
+        let (bindings, preview_stride) = match self.standing.samples {
+            0 => (&resolve.preview, self.standing.filled_stride),
+            _ => (&resolve.film, 1),
+        };
+        let push = ResolvePush {
+            extent: self.settings.estimator.size,
+            preview_stride,
+            exposure: self.settings.exposure(),
+            overlay: OverlayScale::new(&self.settings),
+            blue_first: blue_first.into(),
+        };
+        let has_holes = reach(self.settings.estimator.jitter) > 0 || self.tally.saw_rejected_samples();
+        if self.standing.resolved == Some((push, has_holes)) {
+            return;
+        }
+        let pass = match &resolve.overlay {
+            Some(overlay) => overlay,
+            None if has_holes => &resolve.with_holes,
+            None => &resolve.without_holes,
+        };
+        recording.barrier();
+        pass.record(recording, bindings, &push);
+        recording.barrier();
+        self.standing.resolved = Some((push, has_holes));
+    }
+
+    /// Finds the depths anew, if an overlay shows some and they are not of this view.
+    fn record_depth(&mut self, recording: &mut Recording<'_>) {
+        let Loaded { passes, depth, .. } = &mut self.loaded;
+        let estimator = &self.settings.estimator;
+        depth.record_layout(recording);
+        if let Some((geometry, bindings)) = &passes.geometry
+            && depth.goes_to(Seen::new(estimator))
+        {
+            recording.barrier();
+            geometry.record(recording, bindings, Camera::new(estimator), estimator.size);
+            recording.barrier();
+        }
+    }
+
+    /// Writes the shape of the aperture.
+    pub(super) fn record_aperture(&self, recording: &mut Recording<'_>) {
+        let shape = ApertureBuffer::new(&self.settings.estimator);
+        self.loaded.prepared.aperture.record(recording, &shape);
+    }
+
+    pub(super) fn record_clear(&mut self, recording: &mut Recording<'_>, traced: bool) {
+        if std::mem::take(&mut self.standing.needs_clear) {
+            self.loaded.images.record_clear(recording, traced);
+        }
+    }
+}
