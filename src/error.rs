@@ -44,6 +44,15 @@ pub enum Error {
         /// Vulkan's code.
         result: ash::vk::Result,
     },
+    /// The device stopped working.
+    #[error(
+        "the device was lost while it ran {passes}: its driver gave up on it, or it is gone; update the driver, or \
+         choose another device (thinlens devices)"
+    )]
+    DeviceLost {
+        /// The passes that were handed to it last.
+        passes: String,
+    },
     /// A picture or scene does not fit in memory.
     #[error("not enough memory for {what}; try a smaller --size, or another device (thinlens devices)")]
     Memory {

@@ -175,5 +175,6 @@ fn a_mesh_of_one_triangle_is_shown() {
     let scene = load(&[("one.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")]).expect("a mesh");
     let mut settings = Settings::of_scene(SceneRef::new(scene));
     (settings.estimator.size, settings.samples) = ([64, 36], 4);
-    thinlens::verify::verify(&mut gpu.renderer(&settings), &settings).unwrap_or_else(|error| panic!("{error}"));
+    thinlens::verify::verify(&mut gpu.renderer(&settings), &settings)
+        .unwrap_or_else(|error| panic!("{error}"));
 }

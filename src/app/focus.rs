@@ -3,6 +3,7 @@
 
 use super::diagram::Diagram;
 use super::keys::Modifiers;
+use super::telemetry;
 use crate::renderer::{Picked, Question};
 use crate::scene::{Lens, MAX_LENGTH, MIN_LENGTH};
 use crate::settings::Estimator;
@@ -129,6 +130,11 @@ impl Focus {
         Some(question)
     }
 
+    /// What was asked is not answered any more.
+    pub(super) fn forget(&mut self) {
+        self.asked = None;
+    }
+
     /// What the device says. None: it could not tell.
     pub(super) fn answer(&mut self, picked: Option<Picked>, lens: &Lens) {
         let (Some((question, estimator)), Some(picked)) = (self.asked.take(), picked) else {
@@ -137,7 +143,7 @@ impl Focus {
         if question.samples > 0 {
             let known = Diagram::new(&estimator, &picked);
             if let Some((_, p)) = known.focus {
-                log::trace!("diagram of {:?}: p at {p}", question.position);
+                log::trace!("{} {:?}: p at {p}", telemetry::DIAGRAM, question.position);
             }
             self.diagram = Some(Answer { known, question, estimator });
             return;

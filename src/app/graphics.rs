@@ -1,16 +1,18 @@
 //! What a window needs of Vulkan: a swapchain that comes and goes, frames in flight, and imgui's
 //! renderer.
 
+use super::loader::Loader;
 use crate::error::{Error, Result};
 use crate::output;
-use crate::renderer::{Pace, Picked, Progress, Question, Renderer};
-use crate::settings::Settings;
+use crate::renderer::{Pace, Picked, Prepared, Progress, Question, Renderer};
+use crate::settings::{DeviceChoice, Settings};
 use crate::vulkan::{
     Acquired, AcquiredImage, Commands, Device, FRAMES_IN_FLIGHT, Image, Instance, Surface, Swapchain,
 };
 use imgui_rs_vulkan_renderer::{DynamicRendering, Options};
 use std::path::Path;
 use std::sync::Arc;
+use winit::event_loop::EventLoopProxy;
 use winit::window::Window;
 
 /// What the device says to a question of [`Graphics::draw`]: nothing, where the scene has changed since.
@@ -28,7 +30,10 @@ pub(super) struct Graphics {
     next_frame: usize,
     /// Whether a frame has a question to answer.
     asked: [bool; FRAMES_IN_FLIGHT],
+    pub(super) loader: Loader,
     surface: Arc<Surface>,
+    choice: DeviceChoice,
+    waker: EventLoopProxy<()>,
     device: Arc<Device>,
     window: Arc<Window>,
 }
@@ -37,26 +42,45 @@ impl Graphics {
     pub(super) fn new(
         window: &Arc<Window>,
         instance: &Arc<Instance>,
-        device: Option<&str>,
+        choice: &DeviceChoice,
+        waker: &EventLoopProxy<()>,
         settings: &Settings,
     ) -> Result<Self> {
         let surface = Surface::new(instance, window)?;
-        let device = Device::open(instance, device, Some(&surface))?;
+        Self::on(instance, window, &surface, choice, waker, settings)
+    }
+
+    fn on(
+        instance: &Arc<Instance>,
+        window: &Arc<Window>,
+        surface: &Arc<Surface>,
+        choice: &DeviceChoice,
+        waker: &EventLoopProxy<()>,
+        settings: &Settings,
+    ) -> Result<Self> {
+        let device = Device::open(instance, choice.device.as_deref(), Some(surface))?;
         device.keep_pipelines();
-        let mut renderer = Renderer::new(&device, settings)?;
-        renderer.prepare_answers()?;
+        let renderer = Renderer::new(&device, settings)?;
         Ok(Self {
             overlay: None,
             swapchain: None,
             held: None,
+            loader: Loader::new(renderer.preparer(), renderer.prepared().clone(), waker.clone()),
             renderer,
             frames: [Commands::new(&device)?, Commands::new(&device)?],
             next_frame: 0,
             asked: [false; FRAMES_IN_FLIGHT],
-            surface,
+            surface: Arc::clone(surface),
+            choice: choice.clone(),
+            waker: waker.clone(),
             device,
             window: Arc::clone(window),
         })
+    }
+
+    /// The same on a device that is opened anew.
+    pub(super) fn again(&self, settings: &Settings) -> Result<Self> {
+        Self::on(self.device.instance(), &self.window, &self.surface, &self.choice, &self.waker, settings)
     }
 
     pub(super) fn device_name(&self) -> &str {
@@ -90,6 +114,7 @@ impl Graphics {
         let extent = swapchain.extent();
         self.renderer.set_blue_first(swapchain.blue_first());
         if self.overlay.is_none() {
+            // It uploads the fonts by itself.
             let (device, queue, allocator) = self.device.raw_parts();
             let options = Options { in_flight_frames: FRAMES_IN_FLIGHT, ..Options::default() };
             let target = DynamicRendering {
@@ -99,7 +124,7 @@ impl Graphics {
             let overlay = imgui_rs_vulkan_renderer::Renderer::with_gpu_allocator(
                 allocator,
                 device,
-                queue,
+                *queue,
                 self.frames[0].raw_pool(),
                 target,
                 imgui,
@@ -115,8 +140,34 @@ impl Graphics {
         self.swapchain = None;
     }
 
-    pub(super) fn set(&mut self, settings: &Settings) -> Result<()> {
-        self.renderer.set(settings)
+    /// Renders these settings from now on, if what they need is ready. Otherwise another thread makes it, and this
+    /// gives false.
+    pub(super) fn set(&mut self, settings: &Settings) -> Result<bool> {
+        settings.check()?;
+        // The first picture is not to wait for what answers questions.
+        let answers = self.renderer.prepared().answers() || self.renderer.progress().samples > 0;
+        let ready = self.renderer.prepared().fits(settings, answers);
+        if ready {
+            self.renderer.set(settings)?;
+        } else {
+            self.loader.prepare(settings);
+        }
+        Ok(ready)
+    }
+
+    /// Likewise, with what was made for them.
+    pub(super) fn set_prepared(&mut self, settings: &Settings, prepared: &Prepared) -> Result<()> {
+        self.renderer.set_prepared(settings, prepared)
+    }
+
+    /// Goes on with what is rendered, in this size.
+    pub(super) fn go_on(&mut self, shown: &Settings) -> Result<()> {
+        self.renderer.set(shown)
+    }
+
+    /// Whether questions can be asked.
+    pub(super) fn answers(&self) -> bool {
+        self.renderer.prepared().answers()
     }
 
     /// Holds the picture as it is now, to compare others with.

@@ -7,8 +7,12 @@ mod focus;
 mod graphics;
 mod history;
 mod keys;
+mod loader;
 mod memory;
 mod navigate;
+mod panel;
+mod save_as;
+pub mod telemetry;
 mod ui;
 mod window;
 
@@ -40,7 +44,7 @@ pub struct Options {
 /// [`Error::NoDisplay`] where no window can be opened at all; otherwise whatever ended the viewer.
 pub fn run(options: Options) -> Result<()> {
     let event_loop = display::event_loop().map_err(|error| Error::NoDisplay(reason(&error)))?;
-    let mut viewer = window::Viewer::new(options);
+    let mut viewer = window::Viewer::new(options, event_loop.create_proxy());
     let ended = event_loop.run_app(&mut viewer);
     viewer.finish()?;
     ended.map_err(|error| Error::Window(reason(&error)))

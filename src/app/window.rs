@@ -6,13 +6,16 @@ use super::focus::Focus;
 use super::graphics::{Answer, Graphics};
 use super::history::History;
 use super::keys::Modifiers;
+use super::loader::Ready;
 use super::navigate::Navigate;
-use super::ui::{Action, Panel, State, Status};
+use super::panel::{Panel, State};
+use super::telemetry::{self, Telemetry};
+use super::ui::{Action, Status};
 use super::{keys, memory};
 use crate::error::{Error, Result};
 use crate::renderer::Pace;
 use crate::scene::MAX_EXTENT;
-use crate::vulkan::Instance;
+use crate::vulkan::{AcquiredImage, Instance};
 use imgui_winit_support::{HiDpiMode, WinitPlatform};
 use std::path::Path;
 use std::sync::Arc;
@@ -20,7 +23,7 @@ use std::time::{Duration, Instant};
 use winit::application::ApplicationHandler;
 use winit::dpi::PhysicalSize;
 use winit::event::{Event, WindowEvent};
-use winit::event_loop::{ActiveEventLoop, ControlFlow};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
 use winit::raw_window_handle::HasDisplayHandle;
 use winit::window::{Window, WindowId};
 
@@ -41,9 +44,14 @@ const LOOK_AGAIN: Duration = Duration::from_millis(20);
 /// and for this long.
 const MAY_BE_PRESENTING: Duration = Duration::from_secs(5);
 
+/// A device that is lost more often than this is not opened again.
+const MOST_LOSSES: u32 = 3;
+
 /// The application as winit drives it.
 pub(super) struct Viewer {
     options: Options,
+    /// Wakes the event loop from another thread.
+    waker: EventLoopProxy<()>,
     open: Option<Open>,
     instance: Option<Arc<Instance>>,
     error: Option<Error>,
@@ -68,21 +76,15 @@ struct Open {
     idle: bool,
     /// Whether the last frame had a control held.
     dragging: bool,
-    shown: (u32, u32),
-    /// Lens diameter, focal distance and jitter that were reported last.
-    state: [f32; 3],
-    /// Likewise, where the camera stands and what it looks at.
-    camera: [glam::DVec3; 2],
-    /// Likewise, camera model, field of view in degrees, blades and cat's eye.
-    view: String,
-    /// Likewise, what is allocated on the device.
-    memory: Vec<(String, u64)>,
+    telemetry: Telemetry,
+    /// How often the device was lost.
+    losses: u32,
     occluded: bool,
 }
 
 impl Viewer {
-    pub(super) fn new(options: Options) -> Self {
-        Self { options, open: None, instance: None, error: None }
+    pub(super) fn new(options: Options, waker: EventLoopProxy<()>) -> Self {
+        Self { options, waker, open: None, instance: None, error: None }
     }
 
     /// Closes the window, if it is still open, and says what ended the viewer.
@@ -96,7 +98,7 @@ impl Viewer {
         let display = event_loop.display_handle().map_err(|error| Error::Window(error.to_string()))?;
         let instance = Instance::new(self.options.device.validation, Some(display.as_raw()))?;
         self.instance = Some(Arc::clone(&instance));
-        self.open = Some(Open::new(event_loop, &self.options, &instance)?);
+        self.open = Some(Open::new(event_loop, &self.options, &instance, &self.waker)?);
         Ok(())
     }
 
@@ -122,7 +124,11 @@ impl ApplicationHandler for Viewer {
         match event {
             WindowEvent::CloseRequested => event_loop.exit(),
             WindowEvent::RedrawRequested => {
-                if let Err(error) = open.frame() {
+                let drawn = match open.frame() {
+                    Err(error @ Error::DeviceLost { .. }) => open.reopen(error),
+                    drawn => drawn,
+                };
+                if let Err(error) = drawn {
                     self.fail(event_loop, error);
                 }
             }
@@ -150,6 +156,13 @@ impl ApplicationHandler for Viewer {
         }
     }
 
+    /// Something is ready that another thread has made.
+    fn user_event(&mut self, _event_loop: &ActiveEventLoop, (): ()) {
+        if let Some(open) = &mut self.open {
+            open.frames_to_draw = open.frames_to_draw.max(FRAMES_AFTER_EVENT);
+        }
+    }
+
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
         let Some(open) = &mut self.open else {
             return;
@@ -159,10 +172,12 @@ impl ApplicationHandler for Viewer {
         let busy = busy && !open.is_hidden();
         if busy {
             open.window.request_redraw();
-        } else if !open.idle {
-            log::trace!("idle");
         }
-        open.idle = !busy;
+        let idle = !busy && !open.graphics.loader.is_busy();
+        if idle && !open.idle {
+            log::trace!("{}", telemetry::IDLE);
+        }
+        open.idle = idle;
         event_loop.set_control_flow(if open.last_frame.elapsed() < MAY_BE_PRESENTING {
             ControlFlow::wait_duration(LOOK_AGAIN)
         } else {
@@ -186,25 +201,30 @@ fn report_input(event: &WindowEvent) -> bool {
         // What is held when the window gets the focus comes twice, once made up.
         WindowEvent::KeyboardInput { event, is_synthetic: false, .. } if !event.repeat => &event.state,
         WindowEvent::CursorMoved { position, .. } => {
-            log::trace!("pointer at {} {}", position.x, position.y);
+            log::trace!("{} {} {}", telemetry::POINTER_AT, position.x, position.y);
             return false;
         }
         WindowEvent::CursorLeft { .. } => {
-            log::trace!("pointer left");
+            log::trace!("{}", telemetry::POINTER_LEFT);
             return false;
         }
         WindowEvent::MouseWheel { .. } => {
-            log::trace!("input Turned");
+            log::trace!("{} Turned", telemetry::INPUT);
             return false;
         }
         _ => return false,
     };
-    log::trace!("input {state:?}");
+    log::trace!("{} {state:?}", telemetry::INPUT);
     true
 }
 
 impl Open {
-    fn new(event_loop: &ActiveEventLoop, options: &Options, instance: &Arc<Instance>) -> Result<Self> {
+    fn new(
+        event_loop: &ActiveEventLoop,
+        options: &Options,
+        instance: &Arc<Instance>,
+        waker: &EventLoopProxy<()>,
+    ) -> Result<Self> {
         let [width, height] = options.size.or(options.memory.size).unwrap_or(DEFAULT_SIZE);
         let attributes = Window::default_attributes()
             .with_title("thinlens")
@@ -215,7 +235,7 @@ impl Open {
         let mut panel = Panel::new(options);
         let size = window.inner_size();
         panel.settings.estimator.size = [size.width, size.height].map(|extent| extent.clamp(1, MAX_EXTENT));
-        let graphics = Graphics::new(&window, instance, options.device.device.as_deref(), &panel.settings)?;
+        let graphics = Graphics::new(&window, instance, &options.device, waker, &panel.settings)?;
 
         let mut imgui = imgui::Context::create();
         imgui.set_ini_filename(memory::file("windows.ini"));
@@ -243,11 +263,8 @@ impl Open {
             frames_to_draw: FRAMES_AFTER_EVENT,
             idle: false,
             dragging: false,
-            shown: (0, 0),
-            state: [f32::NAN; 3],
-            camera: [glam::DVec3::NAN; 2],
-            view: String::new(),
-            memory: Vec::new(),
+            telemetry: Telemetry::default(),
+            losses: 0,
             occluded: false,
         };
         open.load_fonts();
@@ -293,11 +310,28 @@ impl Open {
     }
 
     fn frame(&mut self) -> Result<()> {
-        let size = self.window.inner_size();
-        let Some(size) = self.graphics.fit([size.width, size.height], &mut self.imgui)? else {
+        let Some((image, size)) = self.begin_frame()? else {
             return Ok(());
         };
-        log::trace!("frame");
+        let action = self.interact(size);
+        self.apply(action, size)?;
+        self.draw(&image, size)?;
+        self.telemetry.report(&self.panel.settings, self.panel.shown(), self.graphics.progress());
+        self.telemetry.report_memory(|| self.graphics.memory());
+        if let Some(since) = self.unshown_since.take() {
+            let milliseconds = 1e3 * since.elapsed().as_secs_f64();
+            log::trace!("{} {milliseconds:.2} ms after its first event", telemetry::PRESENTED);
+        }
+        Ok(())
+    }
+
+    /// Takes in what the device has done, and gives the image to draw to and its size. None where there is none now.
+    fn begin_frame(&mut self) -> Result<Option<(AcquiredImage, [u32; 2])>> {
+        let size = self.window.inner_size();
+        let Some(size) = self.graphics.fit([size.width, size.height], &mut self.imgui)? else {
+            return Ok(None);
+        };
+        log::trace!("{}", telemetry::FRAME);
         self.frames_to_draw = self.frames_to_draw.saturating_sub(1);
         let answer = self.graphics.wait_for_frame(self.dragging)?;
         if let Some(Answer(picked)) = answer {
@@ -305,9 +339,8 @@ impl Open {
         }
         let Some(image) = self.graphics.acquire()? else {
             self.frames_to_draw += 1;
-            return Ok(());
+            return Ok(None);
         };
-
         let io = self.imgui.io_mut();
         io.update_delta_time(self.last_frame.elapsed());
         self.last_frame = Instant::now();
@@ -315,24 +348,23 @@ impl Open {
         if let Err(error) = self.platform.prepare_frame(io, &self.window) {
             log::warn!("pointer: {error}");
         }
-        if self.panel.held.is_some() && !self.graphics.holds() {
-            self.panel.held = None;
-            self.graphics.let_go()?;
-            self.panel.say("The held picture is gone: it does not fit the window any more.".into());
-        }
+        Ok(Some((image, size)))
+    }
+
+    /// Draws the panel, and takes in what the hand did.
+    fn interact(&mut self, size: [u32; 2]) -> Option<Action> {
         let ui = self.imgui.new_frame();
         ui.dockspace_over_main_viewport();
+        let loader = &self.graphics.loader;
         let status = Status {
             progress: self.graphics.progress(),
             device: self.graphics.device_name(),
             picked: self.focus.under_pointer(),
             diagram: self.focus.diagram(),
+            loading: loader.opening().map(|name| format!("loading {} ...", name.display())),
         };
         let modifiers = self.modifiers.take(ui);
         let action = self.panel.draw(ui, &status).or_else(|| keys::pressed(ui, modifiers));
-        if self.panel.settings.estimator.scene != self.panel.shown().estimator.scene {
-            self.focus.stop();
-        }
         keys::help(ui, &mut self.panel.keys);
         self.navigate.take_input(ui, modifiers, &mut self.panel.settings.estimator.camera);
         let lens = &mut self.panel.settings.estimator.lens;
@@ -348,7 +380,7 @@ impl Open {
         }
         if action == Some(Action::CopyCommand) {
             let line = self.panel.settings.command_line("picture.png");
-            log::debug!("copied {line}");
+            log::debug!("{} {line}", telemetry::COPIED);
             self.panel.say(if self.has_clipboard {
                 "The command line is in the clipboard.".into()
             } else {
@@ -357,27 +389,83 @@ impl Open {
             ui.set_clipboard_text(line);
         }
         self.platform.prepare_render(ui, &self.window);
+        action
+    }
+
+    /// Does what was asked for, and has the renderer follow the settings as soon as it can.
+    fn apply(&mut self, action: Option<Action>, size: [u32; 2]) -> Result<()> {
+        if self.panel.held.is_some() && !self.graphics.holds() {
+            self.panel.held = None;
+            self.graphics.let_go()?;
+            self.panel.say("The held picture is gone: it does not fit the window any more.".into());
+        }
         if let Some(action) = action {
             self.act(action)?;
         }
-
+        if let Some(name) = self.panel.to_open.take() {
+            log::debug!("{} {}", telemetry::LOADING, name.display());
+            self.graphics.loader.open(&name, &self.panel.settings);
+        }
         self.panel.settings.estimator.size = size;
-        if let Err(error) = self.graphics.set(&self.panel.settings) {
+        let mut set = self.take_ready(size);
+        if let Ok(false) = set {
+            set = self.graphics.set(&self.panel.settings);
+        }
+        match set {
+            Ok(true) => {
+                self.panel.accept();
+                if !self.dragging {
+                    self.history.record(&self.panel.state());
+                }
+                return Ok(());
+            }
+            // It is being made ready.
+            Ok(false) => self.panel.accepted.settings.estimator.size = size,
+            Err(error @ Error::DeviceLost { .. }) => return Err(error),
             // A scene that does not fit, say. The renderer still has what it had.
-            self.panel.refuse(&error);
+            Err(error) => self.panel.refuse(&error),
         }
-        self.panel.accept();
-        if !self.dragging {
-            self.history.record(&self.panel.state());
+        self.graphics.go_on(self.panel.shown())
+    }
+
+    /// Shows what the other thread has made ready. True where the renderer has it.
+    fn take_ready(&mut self, size: [u32; 2]) -> Result<bool> {
+        let prepared = match self.graphics.loader.next() {
+            None => return Ok(false),
+            Some(Ready::Prepared(prepared)) => prepared?,
+            Some(Ready::Opened { name, opened: Ok(opened) }) => {
+                let (content, prepared) = *opened;
+                log::debug!("{} {}", telemetry::LOADED, name.display());
+                self.panel.show(&name, &content);
+                self.panel.settings.estimator.size = size;
+                self.focus.stop();
+                prepared
+            }
+            Some(Ready::Opened { opened: Err(error @ Error::DeviceLost { .. }), .. }) => return Err(error),
+            Some(Ready::Opened { opened: Err(error), .. }) => {
+                // What is set stays.
+                self.panel.say(error.to_string());
+                return Ok(false);
+            }
+        };
+        // Something may have changed meanwhile.
+        let fits = prepared.fits(&self.panel.settings, true);
+        if fits {
+            self.graphics.set_prepared(&self.panel.settings, &prepared)?;
         }
+        Ok(fits)
+    }
+
+    /// Goes on with the picture, and shows it with the panel.
+    fn draw(&mut self, image: &AcquiredImage, size: [u32; 2]) -> Result<()> {
         let finished_before = self.graphics.finished();
         let budget = if self.dragging { DRAGGING_BUDGET } else { RESTING_BUDGET };
         let pace = (!self.rests()).then_some(Pace { budget, preview: true });
-        let optics = self.panel.optics;
-        let question =
-            self.focus.question(&self.panel.settings.estimator, optics.open.then_some(optics.rays));
+        let rays = self.panel.optics.open.then_some(self.panel.optics.rays);
+        let can_ask = self.graphics.answers();
+        let question = if can_ask { self.focus.question(&self.panel.shown().estimator, rays) } else { None };
         let split = self.panel.held.as_ref().map_or(0.0, |held| held.share * size[0] as f32);
-        self.graphics.draw(&image, &mut self.imgui, pace, question, split.round() as u32)?;
+        self.graphics.draw(image, &mut self.imgui, pace, question, split.round() as u32)?;
         if self.focus.is_busy() || self.navigate.is_moving() {
             self.frames_to_draw = self.frames_to_draw.max(1);
         }
@@ -385,10 +473,21 @@ impl Open {
             // What was just recorded is on the screen; the panel's figures come a frame later.
             self.frames_to_draw = self.frames_to_draw.max(FRAMES_AFTER_EVENT);
         }
-        self.report();
-        if let Some(since) = self.unshown_since.take() {
-            log::trace!("presented {:.2} ms after its first event", 1e3 * since.elapsed().as_secs_f64());
+        Ok(())
+    }
+
+    /// Opens the device again, after it was lost, and goes on with what was shown.
+    fn reopen(&mut self, error: Error) -> Result<()> {
+        self.losses += 1;
+        if self.losses > MOST_LOSSES {
+            return Err(error);
         }
+        log::warn!("{error}");
+        self.graphics = self.graphics.again(self.panel.shown())?;
+        self.focus.forget();
+        self.panel.held = None;
+        self.panel.say(format!("{error}. It is open again."));
+        self.frames_to_draw = FRAMES_AFTER_EVENT;
         Ok(())
     }
 
@@ -433,40 +532,5 @@ impl Open {
         self.graphics.hold()?;
         self.panel.hold();
         Ok(())
-    }
-
-    fn report(&mut self) {
-        let estimator = &self.panel.settings.estimator;
-        let state = [estimator.lens.diameter, estimator.lens.focal_distance, estimator.jitter];
-        if state != self.state {
-            log::debug!("lens {} {} jitter {}", state[0], state[1], state[2]);
-            self.state = state;
-        }
-        let camera = [estimator.camera.eye, estimator.camera.look_at];
-        if camera != self.camera {
-            let [eye, look_at] = camera;
-            log::debug!("camera {} {} {} {} {} {}", eye.x, eye.y, eye.z, look_at.x, look_at.y, look_at.z);
-            self.camera = camera;
-        }
-        let (vfov, aperture) = (estimator.camera.vfov_radians.to_degrees(), &estimator.aperture);
-        let view = format!("{:?} {vfov:.3} {} {}", estimator.model, aperture.blades, aperture.cats_eye);
-        if view != self.view {
-            log::debug!("view {view}");
-            self.view = view;
-        }
-        let shown = (self.graphics.progress().samples, self.panel.settings.samples);
-        if shown != self.shown {
-            let [width, height] = self.panel.settings.estimator.size;
-            log::debug!("shown {}/{} points of {width}x{height}", shown.0, shown.1);
-            self.shown = shown;
-        }
-        if log::log_enabled!(log::Level::Trace) {
-            let memory = self.graphics.memory();
-            if memory != self.memory {
-                let bytes: u64 = memory.iter().map(|(_, bytes)| bytes).sum();
-                log::trace!("memory {bytes} bytes: {memory:?}");
-                self.memory = memory;
-            }
-        }
     }
 }

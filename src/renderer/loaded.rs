@@ -85,11 +85,9 @@ impl Loaded {
         Ok(())
     }
 
-    /// Whether nothing is to be replaced for these settings.
-    pub(super) fn fits(&self, settings: &Settings, answers: bool) -> bool {
-        self.prepared.fits(settings, answers)
-            && self.images.fit(&settings.estimator)
-            && self.depth.fits(settings)
+    /// Whether nothing is to be replaced for these settings and what was prepared for them.
+    pub(super) fn fits(&self, settings: &Settings, prepared: &Prepared) -> bool {
+        self.prepared.is(prepared) && self.images.fit(&settings.estimator) && self.depth.fits(settings)
     }
 }
 

@@ -17,7 +17,7 @@ mod tally;
 mod tiles;
 
 pub use pick::{LensRay, Picked, Question, Surface};
-pub use prepared::{Prepared, Preparer};
+pub use prepared::{Keys, Prepared, Preparer};
 pub use tally::Progress;
 
 use crate::error::Result;
@@ -46,8 +46,6 @@ pub struct Renderer {
     preparer: Arc<Preparer>,
     loaded: Loaded,
     settings: Settings,
-    /// Whether questions are asked of the picture.
-    answers: bool,
     standing: Standing,
     tally: Tally,
     blue_first: bool,
@@ -100,7 +98,6 @@ impl Renderer {
             loaded: Loaded::new(&preparer, settings, prepared)?,
             preparer: Arc::new(preparer),
             settings: settings.clone(),
-            answers: false,
             standing: Standing::START,
             tally,
             blue_first: false,
@@ -125,17 +122,40 @@ impl Renderer {
     /// [`crate::error::Error::OutOfRange`], [`crate::error::Error::Limit`], [`crate::error::Error::Memory`], or what
     /// Vulkan says.
     pub fn set(&mut self, settings: &Settings) -> Result<()> {
+        self.set_and_answer(settings, self.loaded.prepared.answers())
+    }
+
+    /// Likewise. `answers`: whether questions are asked of the picture.
+    fn set_and_answer(&mut self, settings: &Settings, answers: bool) -> Result<()> {
         settings.check()?;
-        let old = &self.loaded.prepared;
-        let prepared = self.preparer.prepare(settings, self.answers, Some(old))?;
+        let prepared = self.preparer.prepare(settings, answers, Some(&self.loaded.prepared))?;
         self.load(settings, prepared)
     }
 
-    /// Likewise, with what was prepared for just these settings.
+    /// Likewise, with what was prepared for them, so that it takes no time. What does not fit them is made anew.
+    ///
+    /// # Errors
+    /// As [`Self::set`].
+    pub fn set_prepared(&mut self, settings: &Settings, prepared: &Prepared) -> Result<()> {
+        settings.check()?;
+        let prepared = self.preparer.prepare(settings, prepared.answers(), Some(prepared))?;
+        self.load(settings, prepared)
+    }
+
+    /// What makes ready what settings need, in another thread.
+    pub fn preparer(&self) -> Arc<Preparer> {
+        Arc::clone(&self.preparer)
+    }
+
+    /// What is ready.
+    pub fn prepared(&self) -> &Prepared {
+        &self.loaded.prepared
+    }
+
     fn load(&mut self, settings: &Settings, prepared: Prepared) -> Result<()> {
         let largest_batch = self.preparer.largest_batch(&prepared.scene, &settings.estimator)?;
         let another_scene = !Arc::ptr_eq(&prepared.scene, &self.loaded.prepared.scene);
-        if !self.loaded.fits(settings, self.answers) {
+        if !self.loaded.fits(settings, &prepared) {
             self.loaded.replace(&self.preparer, settings, prepared)?;
         }
         self.largest_batch = largest_batch;

@@ -143,21 +143,12 @@ impl Renderer {
         Some(Picked { question, surface, focus, rays })
     }
 
-    /// Makes ready what questions need, from now on.
-    ///
-    /// # Errors
-    /// As [`Renderer::set`].
-    pub fn prepare_answers(&mut self) -> Result<()> {
-        self.answers = true;
-        self.set(&self.settings.clone())
-    }
-
     /// What is at a place of the picture, at once, without a window.
     ///
     /// # Errors
     /// As [`Renderer::set`].
     pub fn pick(&mut self, question: Question) -> Result<Option<Picked>> {
-        self.prepare_answers()?;
+        self.set_and_answer(&self.settings.clone(), true)?;
         let mut commands = Commands::new(&self.preparer.device)?;
         let mut recording = commands.begin()?;
         self.record_pick(&mut recording, 0, question);

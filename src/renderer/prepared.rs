@@ -43,7 +43,7 @@ pub struct Prepared {
 
 /// What each part is made for. A part is made anew exactly when its key changes.
 #[derive(Clone, PartialEq)]
-struct Keys {
+pub struct Keys {
     scene: SceneKey,
     /// The image of the aperture, if it has one.
     aperture: Option<ApertureImage>,
@@ -65,7 +65,8 @@ struct SceneKey {
 }
 
 impl Keys {
-    fn new(settings: &Settings, answers: bool) -> Self {
+    /// Of these settings. `answers`: whether questions are asked of the picture.
+    pub fn new(settings: &Settings, answers: bool) -> Self {
         let Settings { estimator, view, .. } = settings;
         let scene = estimator.scene.clone();
         let has_moments = estimator.has_moments();
@@ -96,8 +97,7 @@ impl Preparer {
         })
     }
 
-    /// Makes what these settings need, and shares what `old` has of it. `answers`: whether questions are asked of
-    /// the picture.
+    /// Makes what these settings need, and shares what `old` has of it. `answers`: as for [`Keys::new`].
     ///
     /// # Errors
     /// [`Error::OutOfRange`] where the device cannot trace the scene, [`Error::Limit`], [`Error::Memory`], or what
@@ -167,8 +167,20 @@ impl Preparer {
 
 impl Prepared {
     /// Whether it is all that these settings need.
-    pub(super) fn fits(&self, settings: &Settings, answers: bool) -> bool {
+    pub fn fits(&self, settings: &Settings, answers: bool) -> bool {
         self.keys == Keys::new(settings, answers)
+    }
+
+    /// Whether all parts are the same.
+    pub(super) fn is(&self, other: &Self) -> bool {
+        self.keys == other.keys
+            && Arc::ptr_eq(&self.scene, &other.scene)
+            && Arc::ptr_eq(&self.aperture, &other.aperture)
+    }
+
+    /// Whether questions can be asked of the picture.
+    pub fn answers(&self) -> bool {
+        self.keys.answers
     }
 }
 

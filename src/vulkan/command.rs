@@ -14,6 +14,8 @@ pub struct Commands {
     fence: vk::Fence,
     /// Whether a submission has signalled the fence, or will.
     submitted: bool,
+    /// The passes that are recorded, in their order.
+    passes: Vec<&'static str>,
     device: Arc<Device>,
 }
 
@@ -30,6 +32,7 @@ impl Commands {
             buffer: vk::CommandBuffer::null(),
             fence: vk::Fence::null(),
             submitted: false,
+            passes: Vec::new(),
             device: Arc::clone(device),
         };
         let pool = vk::CommandPoolCreateInfo::default()
@@ -62,7 +65,7 @@ impl Commands {
         }
         // SAFETY: the fence is of this device, and a submission signals it.
         let result = unsafe { self.device.raw.wait_for_fences(&[self.fence], true, u64::MAX) };
-        check("waiting for the device", result)
+        self.device.check("waiting for the device", result)
     }
 
     /// Waits, then starts recording anew.
@@ -77,6 +80,7 @@ impl Commands {
             result.and_then(|()| self.device.raw.begin_command_buffer(self.buffer, &info))
         };
         check("beginning a command buffer", result)?;
+        self.passes.clear();
         Ok(Recording { commands: self })
     }
 }
@@ -135,6 +139,9 @@ impl Recording<'_> {
             device.raw.cmd_dispatch(buffer, groups[0], groups[1], 1);
         }
         self.end_label();
+        if self.commands.passes.last() != Some(&pipeline.name()) {
+            self.commands.passes.push(pipeline.name());
+        }
     }
 
     /// The boundary between two passes: compute and transfer commands after it see all that those before it wrote, and so
@@ -285,12 +292,15 @@ impl Recording<'_> {
             .wait_semaphore_infos(wait)
             .signal_semaphore_infos(signal)];
         self.commands.submitted = false;
+        if !device.health.submits(&self.commands.passes) {
+            return Err(device.health.error());
+        }
         // SAFETY: the recording ends here; `begin` waited for the fence, so it is not in use.
         unsafe {
             check("ending a command buffer", device.raw.end_command_buffer(self.raw()))?;
             check("resetting a fence", device.raw.reset_fences(&[self.commands.fence]))?;
-            let result = device.raw.queue_submit2(device.queue, &submit, self.commands.fence);
-            check("submitting commands", result)?;
+            let result = device.raw.queue_submit2(*device.queue(), &submit, self.commands.fence);
+            device.check("submitting commands", result)?;
         }
         self.commands.submitted = true;
         Ok(())

@@ -1,5 +1,6 @@
 //! A device that is in use, with what belongs to it: its queue, its allocator and its pipeline cache.
 
+use super::health::Health;
 use super::limits::{Limits, Traits};
 use super::physical::{DeviceInfo, SOFTWARE, choose, extensions};
 use super::pipeline_cache::{PipelineCache, user_cache_folder};
@@ -16,7 +17,10 @@ use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 pub struct Device {
     pub(super) raw: ash::Device,
     pub(super) physical: vk::PhysicalDevice,
-    pub(super) queue: vk::Queue,
+    /// One thread at a time hands work to it.
+    queue: Mutex<vk::Queue>,
+    /// What became of it.
+    pub(super) health: Health,
     pub(super) queue_family: u32,
     pub(super) debug: Option<ext::debug_utils::Device>,
     /// Nanoseconds a timestamp tick; 0 where the queue has no timestamps.
@@ -116,7 +120,8 @@ impl Device {
         Ok(Arc::new(Self {
             debug: instance.debug_utils.then(|| ext::debug_utils::Device::new(&instance.raw, &raw)),
             physical: info.raw,
-            queue,
+            queue: Mutex::new(queue),
+            health: Health::default(),
             queue_family: info.queue_family,
             timestamp_period: if timestamps { limits.timestamp_period } else { 0.0 },
             allocator: ManuallyDrop::new(Arc::new(Mutex::new(allocator))),
@@ -168,13 +173,28 @@ impl Device {
 
     /// Waits until the device has nothing to do.
     pub fn wait_idle(&self) -> Result<()> {
-        // SAFETY: the device is valid. Renderer and window use its queue from one thread.
-        check("waiting for the device", unsafe { self.raw.device_wait_idle() })
+        let _queue = self.queue();
+        // SAFETY: the device is valid, and no other thread uses its queue meanwhile.
+        self.check("waiting for the device", unsafe { self.raw.device_wait_idle() })
     }
 
-    /// The raw handles, which imgui's renderer takes. That renderer must be dropped before the device.
-    pub fn raw_parts(&self) -> (ash::Device, vk::Queue, Arc<Mutex<Allocator>>) {
-        (self.raw.clone(), self.queue, Arc::clone(&self.allocator))
+    /// The raw handles, which imgui's renderer takes. That renderer must be dropped before the device. No other thread
+    /// can use the queue while it is held.
+    pub fn raw_parts(&self) -> (ash::Device, MutexGuard<'_, vk::Queue>, Arc<Mutex<Allocator>>) {
+        (self.raw.clone(), self.queue(), Arc::clone(&self.allocator))
+    }
+
+    /// The queue, while no other thread uses it. To hand work to it takes little time, whatever the work takes.
+    pub(super) fn queue(&self) -> MutexGuard<'_, vk::Queue> {
+        self.queue.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Names what failed; of a lost device, what it ran.
+    pub(super) fn check<T>(&self, what: &'static str, result: Result<T, vk::Result>) -> Result<T> {
+        match result {
+            Err(vk::Result::ERROR_DEVICE_LOST) => Err(self.health.error()),
+            result => check(what, result),
+        }
     }
 
     /// What is allocated on it now: each allocation's name and bytes, in the order of their names.

@@ -13,6 +13,7 @@
 mod buffer;
 mod command;
 mod device;
+mod health;
 mod image;
 mod instance;
 mod limits;

@@ -79,6 +79,7 @@ impl ComputePipeline {
             let given = constants.iter().filter(|(given, _)| given == id).count();
             assert_eq!(given, 1, "{}: values of the constant {id}", shader.name);
         }
+        log::debug!("compiling {}", shader.name);
         let mut pipeline = Self {
             raw: vk::Pipeline::null(),
             layout: vk::PipelineLayout::null(),

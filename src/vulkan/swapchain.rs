@@ -147,7 +147,7 @@ impl Swapchain {
             }
             Err(vk::Result::ERROR_OUT_OF_DATE_KHR) => Ok(Acquired::Stale),
             Err(vk::Result::TIMEOUT | vk::Result::NOT_READY) => Ok(Acquired::NotReady),
-            Err(result) => check("acquiring an image of the window", Err(result)),
+            Err(result) => self.device.check("acquiring an image of the window", Err(result)),
         }
     }
 
@@ -241,10 +241,10 @@ impl Swapchain {
             .swapchains(&swapchains)
             .image_indices(&indices);
         // SAFETY: the image is in the layout for presenting once the semaphore is signalled.
-        match unsafe { self.loader.queue_present(self.device.queue, &info) } {
+        match unsafe { self.loader.queue_present(*self.device.queue(), &info) } {
             Ok(suboptimal) => Ok(!suboptimal),
             Err(vk::Result::ERROR_OUT_OF_DATE_KHR) => Ok(false),
-            Err(result) => check("presenting", Err(result)),
+            Err(result) => self.device.check("presenting", Err(result)),
         }
     }
 }

@@ -13,6 +13,7 @@ use std::process::{Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
+use thinlens::app::telemetry;
 use x11rb::CURRENT_TIME;
 use x11rb::connection::Connection;
 use x11rb::protocol::Event;
@@ -96,6 +97,20 @@ pub struct Viewer {
 }
 
 impl Viewer {
+    /// Takes in the log up to a line that says this, and gives the number of frames that began before it.
+    pub fn frames_until(&self, what: &str) -> usize {
+        let deadline = Instant::now() + PATIENCE;
+        let mut frames = 0;
+        loop {
+            assert!(Instant::now() < deadline, "no '{what}' after {frames} frames");
+            match self.listen(Duration::from_millis(20)) {
+                Some(line) if said(&line, what).is_some() => return frames,
+                Some(line) if said(&line, telemetry::FRAME).is_some() => frames += 1,
+                _ => {}
+            }
+        }
+    }
+
     /// Starts a display and the viewer in it under validation, and waits for its panel.
     pub fn start(size: [u16; 2], arguments: &[&str]) -> Self {
         Self::start_as_user(size, &[&["--validation"], arguments].concat())
@@ -113,6 +128,11 @@ impl Viewer {
 
     /// Likewise, in this folder, whose window must come out in this size.
     pub fn start_in(folder: &Path, size: [u16; 2], arguments: &[&str]) -> Self {
+        Self::start_with(folder, size, arguments, &[])
+    }
+
+    /// Likewise, with these variables in its environment.
+    pub fn start_with(folder: &Path, size: [u16; 2], arguments: &[&str], variables: &[(&str, &str)]) -> Self {
         let Server { process: server, display } = Server::start();
         let mut program = Command::new(env!("CARGO_BIN_EXE_thinlens"))
             .arg("view")
@@ -124,6 +144,7 @@ impl Viewer {
             .env_remove("WAYLAND_DISPLAY")
             .env_remove("WAYLAND_SOCKET")
             .env("RUST_LOG", "thinlens=trace")
+            .envs(variables.iter().copied())
             .stderr(Stdio::piped())
             .spawn()
             .map(Killed)
@@ -177,14 +198,14 @@ impl Viewer {
             Err(RecvTimeoutError::Disconnected) => panic!("the viewer has ended"),
         };
         assert!(!line.contains("validation:") && !line.contains("panicked"), "{line}");
-        self.idle.set(line.ends_with("] idle"));
-        if let Some(pointer) = line.split("] pointer at ").nth(1) {
+        self.idle.set(said(&line, telemetry::IDLE).is_some());
+        if let Some(pointer) = said(&line, telemetry::POINTER_AT) {
             self.pointer.set(Some(numbers(pointer).try_into().expect("two numbers")));
         }
-        if line.ends_with("] pointer left") {
+        if said(&line, telemetry::POINTER_LEFT).is_some() {
             self.pointer.set(None);
         }
-        if let Some(input) = line.split("] input ").nth(1) {
+        if let Some(input) = said(&line, telemetry::INPUT) {
             self.inputs.set(self.inputs.get() + 1);
             self.held.set(match input {
                 "Pressed" => self.held.get() + 1,
@@ -193,42 +214,43 @@ impl Viewer {
                 _ => self.held.get(),
             });
         }
-        if let Some(copied) = line.split("] copied ").nth(1) {
+        if let Some(copied) = said(&line, telemetry::COPIED) {
             *self.copied.borrow_mut() = Some(copied.to_owned());
         }
-        if let Some(control) = line.split("control '").nth(1) {
+        if let Some(control) = said(&line, telemetry::CONTROL) {
+            let control = control.strip_prefix('\'').expect("a quoted name");
             let (name, place) = control.split_once("' at ").expect("a name and a place");
             let place: Vec<i32> = place.split(' ').map(|number| number.parse().expect("a number")).collect();
             self.controls.borrow_mut().insert(name.to_owned(), place.try_into().expect("four numbers"));
         }
-        if let Some(state) = line.split("] lens ").nth(1) {
+        if let Some(state) = said(&line, telemetry::LENS) {
             *self.state.borrow_mut() = numbers(state).try_into().expect("three numbers");
         }
-        if let Some(camera) = line.split("] camera ").nth(1) {
+        if let Some(camera) = said(&line, telemetry::CAMERA) {
             *self.camera.borrow_mut() = numbers(camera).try_into().expect("six numbers");
         }
-        if let Some(diagram) = line.split("diagram of [").nth(1) {
+        if let Some(diagram) = said(&line, telemetry::DIAGRAM) {
+            let diagram = diagram.strip_prefix('[').expect("a pixel");
             let (pixel, p) = diagram.split_once("]: p at [").expect("a pixel and p");
             let pixel = numbers(&pixel.replace(',', "")).try_into().expect("two numbers");
             let p =
                 numbers(p.trim_end_matches(']').replace(',', "").as_str()).try_into().expect("three numbers");
             *self.diagram.borrow_mut() = Some((pixel, p));
         }
-        if let Some(message) = line.split("] message ").nth(1) {
+        if let Some(message) = said(&line, telemetry::MESSAGE) {
             message.clone_into(&mut self.message.borrow_mut());
         }
-        if let Some(view) = line.split("] view ").nth(1) {
+        if let Some(view) = said(&line, telemetry::VIEW) {
             view.clone_into(&mut self.view.borrow_mut());
         }
-        if let Some((_, memory)) = line.split_once("memory ").and_then(|(_, memory)| memory.split_once(": "))
-        {
+        if let Some((_, memory)) = said(&line, telemetry::MEMORY).and_then(|memory| memory.split_once(": ")) {
             let named = memory.trim_matches(['[', ']', '(', ')']).split("), (").map(|allocation| {
                 let (name, bytes) = allocation.rsplit_once(", ").expect("a name and bytes");
                 (name.to_owned(), bytes.parse().expect("a number"))
             });
             *self.memory.borrow_mut() = named.collect();
         }
-        if let Some(shown) = line.split("shown ").nth(1) {
+        if let Some(shown) = said(&line, telemetry::SHOWN) {
             shown.clone_into(&mut self.last_shown.borrow_mut());
             let (samples, target) = shown.split_once('/').expect("two numbers");
             let target = target.split(' ').next().expect("a number");
@@ -379,7 +401,10 @@ impl Viewer {
         let mut seen = 0;
         while seen < count {
             assert!(Instant::now() < deadline, "only {seen} of {count} frames");
-            if self.listen(Duration::from_millis(20)).is_some_and(|line| line.ends_with("] frame")) {
+            if self
+                .listen(Duration::from_millis(20))
+                .is_some_and(|line| said(&line, telemetry::FRAME).is_some())
+            {
                 seen += 1;
             }
         }
@@ -491,6 +516,13 @@ impl Viewer {
         assert!(!log.iter().any(|line| line.contains("validation:")), "{log:#?}");
         assert!(status.success(), "{status}: {log:#?}");
     }
+}
+
+/// What the viewer says in a line of its log about this, if it does.
+pub fn said<'a>(line: &'a str, what: &str) -> Option<&'a str> {
+    let (_, said) = line.split_once("] ")?;
+    let rest = said.strip_prefix(what)?;
+    if rest.is_empty() { Some(rest) } else { rest.strip_prefix(' ') }
 }
 
 /// The numbers among the words of a line.

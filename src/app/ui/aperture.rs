@@ -1,7 +1,7 @@
 //! The part of the panel that shapes the opening.
 
-use super::Panel;
 use super::widgets::{Layout, combo, note_item, tooltip};
+use crate::app::panel::Panel;
 use crate::scene::{Aperture, CameraModel};
 use crate::settings::Part;
 use imgui::Ui;

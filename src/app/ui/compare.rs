@@ -1,8 +1,8 @@
 //! A held picture beside the one that is rendered, and the line between them.
 
-use super::Panel;
 use super::numbers::length;
 use super::widgets::{Layout, note_item};
+use crate::app::panel::{Held, Panel};
 use crate::scene::CameraModel;
 use crate::settings::Settings;
 use imgui::{Condition, MouseCursor, StyleVar, Ui, WindowFlags};
@@ -12,19 +12,9 @@ const REACH: f32 = 6.0;
 const LINE: [f32; 4] = [1.0, 1.0, 1.0, 0.85];
 const SHADE: [f32; 4] = [0.0, 0.0, 0.0, 0.65];
 
-/// A picture that is held.
-pub(in crate::app) struct Held {
-    /// Where the line stands, as a share of the width.
-    pub(in crate::app) share: f32,
-    /// What was set when it was held.
-    words: String,
-}
-
-impl Held {
-    /// In the middle of what the panel leaves free.
-    pub(in crate::app) fn new(settings: &Settings, share: f32) -> Self {
-        Self { share, words: words(settings) }
-    }
+/// What is held from now on, with what was set.
+pub(super) fn held(settings: &Settings, share: f32) -> Held {
+    Held { share, words: words(settings) }
 }
 
 impl Panel {

@@ -1,7 +1,7 @@
 //! The part of the panel that says what forms the picture: lens, pinhole or hole.
 
-use super::Panel;
 use super::widgets::{Layout, note_item};
+use crate::app::panel::Panel;
 use crate::scene::CameraModel;
 use crate::settings::Part;
 use imgui::Ui;

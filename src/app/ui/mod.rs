@@ -1,4 +1,4 @@
-//! The panel.
+//! The panel as it is drawn.
 
 mod aperture;
 mod compare;
@@ -7,64 +7,24 @@ mod lens;
 mod numbers;
 mod optics;
 mod overlay;
+mod paper;
 mod rows;
 mod sampling;
 mod widgets;
 
-use super::Options;
 use super::diagram::Diagram;
-use super::memory::Memory;
-use crate::error::Error;
-use crate::output::{Origin, PictureFormat};
+use super::panel::{Panel, builtin};
+use super::telemetry;
 use crate::renderer::{Picked, Progress};
-use crate::scene::{self, ApertureImage, BUILTINS, CameraModel, SceneRef};
-use crate::settings::{Part, Settings};
-use compare::Held;
-use files::Files;
+use crate::scene::CameraModel;
+use crate::settings::Part;
 use imgui::{Condition, Ui};
-use optics::Optics;
-use std::path::{Path, PathBuf};
 use widgets::{Layout, combo, note_item, section, tooltip};
-
-/// Files that are offered again.
-const MOST_RECENT: usize = 8;
 
 /// Width of the panel, in points.
 const PANEL_WIDTH: f32 = 320.0;
 /// Around the panel, in points.
 const MARGIN: f32 = 12.0;
-
-/// What the panel edits, and what it has to know for it.
-pub(super) struct Panel {
-    /// What is rendered now.
-    pub(super) settings: Settings,
-    /// What Reset goes back to.
-    initial: Settings,
-    /// What the renderer took last: of this is the picture that is shown.
-    accepted: State,
-    /// The last aperture that was an image.
-    image: Option<ApertureImage>,
-    /// The choices: the built-ins, and what was opened.
-    scenes: Vec<PathBuf>,
-    /// What was opened before, the latest first.
-    recent: Vec<PathBuf>,
-    files: Files,
-    message: Option<String>,
-    pub(super) optics: Optics,
-    /// The picture that is held to compare with, if one is.
-    pub(super) held: Option<Held>,
-    pub(super) paused: bool,
-    pub(super) keys: bool,
-    /// Where the controls were drawn, to tell when they moved.
-    layout: Layout,
-}
-
-/// What a change changes.
-#[derive(Clone, PartialEq)]
-pub(super) struct State {
-    pub(super) settings: Settings,
-    initial: Settings,
-}
 
 /// What the panel shows of the renderer.
 pub(super) struct Status<'a> {
@@ -74,6 +34,8 @@ pub(super) struct Status<'a> {
     pub(super) picked: Option<&'a Picked>,
     /// The optics of the pixel that was clicked last.
     pub(super) diagram: Option<&'a Diagram>,
+    /// What is made ready in another thread meanwhile, if anything.
+    pub(super) loading: Option<String>,
 }
 
 /// What a button asks for beyond the settings.
@@ -105,45 +67,7 @@ pub(super) enum Action {
     CopyCommand,
 }
 
-/// A file's path from wherever one is.
-fn whole_path(file: &Path) -> PathBuf {
-    std::path::absolute(file).unwrap_or_else(|_| file.to_path_buf())
-}
-
-fn builtin(name: &Path) -> Option<&'static str> {
-    BUILTINS.iter().map(|builtin| builtin.name).find(|builtin| Path::new(builtin) == name)
-}
-
 impl Panel {
-    pub(super) fn new(options: &Options) -> Self {
-        let settings = options.settings.clone();
-        let mut panel = Self {
-            initial: options.initial.clone(),
-            accepted: State { settings: settings.clone(), initial: options.initial.clone() },
-            image: settings.estimator.aperture.image.clone(),
-            settings,
-            scenes: BUILTINS.iter().map(|builtin| builtin.name.into()).collect(),
-            recent: options.memory.recent.clone(),
-            files: Files::default(),
-            message: options.message.clone().or_else(|| options.settings.estimator.too_coarse()),
-            optics: Optics { open: options.memory.optics, ..Optics::default() },
-            held: None,
-            paused: false,
-            keys: false,
-            layout: Vec::new(),
-        };
-        panel.offer_scene();
-        panel
-    }
-
-    /// The scene is among the choices from now on.
-    fn offer_scene(&mut self) {
-        let source = &self.settings.estimator.scene.source;
-        if !self.scenes.contains(source) {
-            self.scenes.push(source.clone());
-        }
-    }
-
     /// Draws the panel and changes the settings as told.
     pub(super) fn draw(&mut self, ui: &Ui, status: &Status<'_>) -> Option<Action> {
         let mut layout = Vec::new();
@@ -221,81 +145,18 @@ impl Panel {
         overlay::legend(ui, &self.settings);
         if layout != self.layout {
             for (name, [x, y, width, height]) in &layout {
-                log::debug!("control '{name}' at {x} {y} {width} {height}");
+                log::debug!("{} '{name}' at {x} {y} {width} {height}", telemetry::CONTROL);
             }
             self.layout = layout;
         }
         action
     }
 
-    /// Back to what the scene was opened with.
-    pub(super) fn reset(&mut self) {
-        let size = self.settings.estimator.size;
-        self.settings = self.initial.clone();
-        self.settings.estimator.size = size;
-    }
-
-    /// Likewise, but only where the camera stands and looks.
-    pub(super) fn reset_camera(&mut self) {
-        let (camera, initial) = (&mut self.settings.estimator.camera, &self.initial.estimator.camera);
-        (camera.eye, camera.look_at, camera.up) = (initial.eye, initial.look_at, initial.up);
-    }
-
     /// A picture is held from now on, on the left of what the panel leaves free.
     pub(super) fn hold(&mut self) {
         let width = self.settings.estimator.size[0] as f32;
         let left = (PANEL_WIDTH + 2.0 * MARGIN) / width;
-        self.held = Some(Held::new(self.shown(), if left < 0.8 { 0.5 * (left + 1.0) } else { 0.5 }));
-    }
-
-    /// Shows a message until there is another one.
-    pub(super) fn say(&mut self, message: String) {
-        log::debug!("message {message}");
-        self.message = Some(message);
-    }
-
-    /// What to remember of it.
-    pub(super) fn memory(&self) -> Memory {
-        let Settings { estimator, .. } = &self.settings;
-        Memory {
-            size: Some(estimator.size),
-            // The next time the viewer may be started elsewhere.
-            arguments: self.settings.arguments_from_anywhere(),
-            recent: self.recent.clone(),
-            optics: self.optics.open,
-        }
-    }
-
-    /// What undo and redo go back and forth between. The window's size is not part of it.
-    pub(super) fn state(&self) -> State {
-        let mut state = State { settings: self.settings.clone(), initial: self.initial.clone() };
-        (state.settings.estimator.size, state.initial.estimator.size) = ([1; 2], [1; 2]);
-        state
-    }
-
-    /// Puts a state back.
-    pub(super) fn restore(&mut self, state: State) {
-        let size = self.settings.estimator.size;
-        (self.settings, self.initial) = (state.settings, state.initial);
-        self.settings.estimator.size = size;
-    }
-
-    /// The renderer took the settings.
-    pub(super) fn accept(&mut self) {
-        if self.accepted.settings != self.settings || self.accepted.initial != self.initial {
-            self.accepted = State { settings: self.settings.clone(), initial: self.initial.clone() };
-        }
-    }
-
-    /// The renderer did not: back to what it took last, and say why.
-    pub(super) fn refuse(&mut self, error: &Error) {
-        self.say(error.to_string());
-        self.restore(self.accepted.clone());
-    }
-
-    /// The settings of the picture that is shown.
-    pub(super) fn shown(&self) -> &Settings {
-        &self.accepted.settings
+        self.held = Some(compare::held(self.shown(), if left < 0.8 { 0.5 * (left + 1.0) } else { 0.5 }));
     }
 
     fn scene_chooser(&mut self, ui: &Ui, layout: &mut Layout) {
@@ -320,39 +181,6 @@ impl Panel {
         if let Some(message) = &self.message {
             ui.text_wrapped(message);
         }
-    }
-
-    /// Opens a scene, a mesh, or a picture with its settings; or says why not.
-    pub(super) fn open(&mut self, name: &Path) {
-        let opened = match PictureFormat::of(name) {
-            Some(_) => Origin::read(name).and_then(|origin| Settings::of_arguments(&origin.arguments)),
-            None => scene::load(name).map(|loaded| self.settings.with_scene(SceneRef::new(loaded))),
-        };
-        match opened {
-            Ok(mut settings) => {
-                settings.estimator.size = self.settings.estimator.size;
-                self.initial = Settings {
-                    samples: settings.samples,
-                    ..self.settings.with_scene(settings.estimator.scene.clone())
-                };
-                self.image = settings.estimator.aperture.image.clone().or(self.image.take());
-                self.settings = settings;
-                self.message = self.settings.estimator.too_coarse();
-                self.offer_scene();
-                if builtin(name).is_none() {
-                    self.remember(name);
-                }
-            }
-            Err(error) => self.say(error.to_string()),
-        }
-    }
-
-    /// The file is the latest of those that are offered again.
-    fn remember(&mut self, file: &Path) {
-        let file = whole_path(file);
-        self.recent.retain(|known| *known != file);
-        self.recent.insert(0, file);
-        self.recent.truncate(MOST_RECENT);
     }
 
     /// The rows of a part that change settings.

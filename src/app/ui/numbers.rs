@@ -1,6 +1,6 @@
 //! The part of the panel that has the numbers: what is sharp, and what lies under the pointer.
 
-use super::Panel;
+use crate::app::panel::Panel;
 use crate::renderer::Picked;
 use crate::scene::{CameraModel, FRAME_HEIGHT_MM};
 use imgui::Ui;

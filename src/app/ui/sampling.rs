@@ -1,6 +1,7 @@
 //! The parts of the panel that say how far the picture is, and on which device.
 
-use super::{Panel, Status};
+use super::Status;
+use crate::app::panel::Panel;
 use crate::renderer::Progress;
 use imgui::Ui;
 
@@ -10,7 +11,9 @@ impl Panel {
         let target = self.settings.samples;
         let mut text = format!("{samples} / {target} points");
         let [width, height] = self.settings.estimator.size.map(u64::from);
-        if let Some(active) = active_pixels {
+        if let Some(loading) = &status.loading {
+            text.clone_from(loading);
+        } else if let Some(active) = active_pixels {
             let share = 100.0 * active as f64 / (width * height) as f64;
             text += &format!(", {share:.1}% of the pixels go on");
         } else if self.paused {

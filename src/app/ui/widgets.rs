@@ -1,9 +1,8 @@
 //! Controls of the panel.
 
-use imgui::{TreeNodeFlags, Ui};
+pub(super) use crate::app::panel::Layout;
 
-/// Where controls are, in physical pixels: name, and left, top, width, height.
-pub(super) type Layout = Vec<(&'static str, [i32; 4])>;
+use imgui::{TreeNodeFlags, Ui};
 
 /// A control with its name above it, as wide as the panel.
 pub(super) fn named(

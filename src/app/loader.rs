@@ -1,0 +1,177 @@
+//! Makes ready in another thread what takes long: it reads files, builds trees, uploads them and compiles passes,
+//! while the window goes on with what it has.
+
+use super::panel::Content;
+use crate::error::Result;
+use crate::renderer::{Keys, Prepared, Preparer};
+use crate::settings::Settings;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread::JoinHandle;
+use winit::event_loop::EventLoopProxy;
+
+/// The other thread, and what it was asked for. Of each kind of request the newest wins.
+pub(super) struct Loader {
+    /// None once it is to end.
+    requests: Option<Sender<Request>>,
+    answers: Receiver<Answer>,
+    thread: Option<JoinHandle<()>>,
+    /// What is to be opened.
+    opening: Option<PathBuf>,
+    /// What is to be prepared.
+    preparing: Option<Keys>,
+    /// The number of the newest request to open something.
+    newest: Arc<AtomicU64>,
+}
+
+enum Request {
+    Open { number: u64, name: PathBuf, now: Box<Settings> },
+    Prepare(Box<Settings>),
+}
+
+enum Answer {
+    Opened { number: u64, name: PathBuf, opened: Result<Box<(Content, Prepared)>> },
+    Prepared { keys: Keys, prepared: Result<Prepared> },
+}
+
+/// What is ready.
+pub(super) enum Ready {
+    /// What was opened, and what its settings need.
+    Opened { name: PathBuf, opened: Result<Box<(Content, Prepared)>> },
+    /// What settings need.
+    Prepared(Result<Prepared>),
+}
+
+impl Loader {
+    /// Starts the thread. `prepared`: what there is. `waker` is told whenever something is ready.
+    pub(super) fn new(preparer: Arc<Preparer>, prepared: Prepared, waker: EventLoopProxy<()>) -> Self {
+        let (requests, todo) = channel();
+        let (done, answers) = channel();
+        let newest = Arc::new(AtomicU64::new(0));
+        let answer = move |answer| {
+            // The window may be gone, and its events.
+            let _ = done.send(answer);
+            let _ = waker.send_event(());
+        };
+        let mut worker = Worker { preparer, last: prepared, newest: Arc::clone(&newest), answer };
+        let thread = std::thread::spawn(move || while worker.work(&todo) {});
+        Self {
+            requests: Some(requests),
+            answers,
+            thread: Some(thread),
+            opening: None,
+            preparing: None,
+            newest,
+        }
+    }
+
+    /// Opens a scene, a mesh or a picture, to be shown in place of what is set now.
+    pub(super) fn open(&mut self, name: &Path, now: &Settings) {
+        let number = self.newest.fetch_add(1, Ordering::Relaxed) + 1;
+        self.opening = Some(name.to_path_buf());
+        self.ask(Request::Open { number, name: name.to_path_buf(), now: Box::new(now.clone()) });
+    }
+
+    /// Makes what settings need, unless that is under way.
+    pub(super) fn prepare(&mut self, settings: &Settings) {
+        let keys = Keys::new(settings, true);
+        if self.preparing.as_ref() != Some(&keys) {
+            self.preparing = Some(keys);
+            self.ask(Request::Prepare(Box::new(settings.clone())));
+        }
+    }
+
+    fn ask(&self, request: Request) {
+        // The thread ends only when this goes.
+        let _ = self.requests.as_ref().map(|requests| requests.send(request));
+    }
+
+    /// What is being opened.
+    pub(super) fn opening(&self) -> Option<&Path> {
+        self.opening.as_deref()
+    }
+
+    /// Whether anything is under way.
+    pub(super) fn is_busy(&self) -> bool {
+        self.opening.is_some() || self.preparing.is_some()
+    }
+
+    /// The next thing that is ready and still wanted.
+    pub(super) fn next(&mut self) -> Option<Ready> {
+        while let Ok(answer) = self.answers.try_recv() {
+            match answer {
+                Answer::Opened { number, name, opened } => {
+                    if number == self.newest.load(Ordering::Relaxed) {
+                        self.opening = None;
+                        return Some(Ready::Opened { name, opened });
+                    }
+                }
+                Answer::Prepared { keys, prepared } => {
+                    if self.preparing.as_ref() == Some(&keys) {
+                        self.preparing = None;
+                        return Some(Ready::Prepared(prepared));
+                    }
+                }
+            }
+        }
+        None
+    }
+}
+
+impl Drop for Loader {
+    /// Waits for the step under way: what a driver compiles cannot be called off.
+    fn drop(&mut self) {
+        self.requests = None;
+        self.newest.fetch_add(1, Ordering::Relaxed);
+        let _ = self.thread.take().map(JoinHandle::join);
+    }
+}
+
+struct Worker<F> {
+    preparer: Arc<Preparer>,
+    /// What was made last, whose parts are shared where they fit.
+    last: Prepared,
+    newest: Arc<AtomicU64>,
+    answer: F,
+}
+
+impl<F: Fn(Answer)> Worker<F> {
+    /// Waits for requests, and does the newest of each kind. False at the end.
+    fn work(&mut self, todo: &Receiver<Request>) -> bool {
+        let Ok(first) = todo.recv() else {
+            return false;
+        };
+        let (mut open, mut prepare) = (None, None);
+        for request in std::iter::once(first).chain(todo.try_iter()) {
+            match request {
+                Request::Open { .. } => open = Some(request),
+                Request::Prepare(settings) => prepare = Some(settings),
+            }
+        }
+        // What the picture needs that is shown comes first: it takes less time than another one.
+        if let Some(settings) = prepare {
+            let prepared = self.prepare(&settings);
+            (self.answer)(Answer::Prepared { keys: Keys::new(&settings, true), prepared });
+        }
+        if let Some(Request::Open { number, name, now }) = open {
+            let opened = Content::read(&name);
+            // Another one may be wanted by now.
+            if number == self.newest.load(Ordering::Relaxed) {
+                let opened = opened.and_then(|content| {
+                    let prepared = self.prepare(&content.settings(&now))?;
+                    Ok(Box::new((content, prepared)))
+                });
+                (self.answer)(Answer::Opened { number, name, opened });
+            }
+        }
+        true
+    }
+
+    fn prepare(&mut self, settings: &Settings) -> Result<Prepared> {
+        let prepared = self.preparer.prepare(settings, true, Some(&self.last))?;
+        self.last = prepared.clone();
+        Ok(prepared)
+    }
+}
