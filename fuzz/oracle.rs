@@ -3,7 +3,7 @@
 use std::path::Path;
 use thinlens::gpu_types::SceneData;
 use thinlens::scene::{self, SceneRef};
-use thinlens::settings::Settings;
+use thinlens::settings::{Settings, list};
 
 /// Settings that can be rendered come back from their own arguments.
 pub fn arguments(settings: &Settings) {
@@ -26,12 +26,11 @@ pub fn saved(settings: &Settings) {
     assert_eq!(shapes(&scene), shapes(&settings.estimator.scene), "a saved scene has other shapes");
     let again = Settings::of_scene(SceneRef::new(scene));
     again.check().unwrap_or_else(|error| panic!("a saved scene cannot be rendered: {error}"));
-    let mut again = of_one_loading(again, settings).estimator;
-    let own = &settings.estimator;
-    // A scene file does not say how it is sampled.
-    (again.jitter, again.sampler, again.seed) = (own.jitter, own.sampler, own.seed);
-    again.noise_threshold = own.noise_threshold;
-    assert_eq!(again, *own, "a saved scene has other settings");
+    let mut again = of_one_loading(again, settings);
+    for setting in list::own().filter(|setting| setting.is_of_sampling()) {
+        setting.set(&mut again, &setting.get(settings)).expect("no image says how a scene is sampled");
+    }
+    assert_eq!(again.estimator, settings.estimator, "a saved scene has other settings");
 }
 
 /// Scenes and images are equal where they are the same loading: takes over those of the other settings, if an image

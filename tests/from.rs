@@ -6,8 +6,8 @@ use common::{Gpu, decode_png, run};
 use std::path::Path;
 use thinlens::output::{self, Origin};
 
-use thinlens::scene::{self, CameraModel, Overlay, SceneRef};
-use thinlens::settings::{Sampler, Settings};
+use thinlens::scene::{self, SceneRef};
+use thinlens::settings::{Access, Settings, Value, Widget, list};
 
 /// Every option that changes a picture, in groups that go together.
 const OPTIONS: [&[&str]; 8] = [
@@ -164,37 +164,36 @@ fn other_options_change_what_a_picture_says() {
 /// Settings of a scene in which nothing is as the scene has it.
 fn changed(scene: &SceneRef, random: &mut fastrand::Rng) -> Settings {
     let mut settings = Settings::of_scene(scene.clone());
-    let (estimator, view) = (&mut settings.estimator, &mut settings.view);
-    let mut place = |low: f64, high: f64| low + random.f64() * (high - low);
-    estimator.camera.eye = glam::dvec3(place(-9.0, 9.0), place(1.0, 5.0), place(-1.0, 9.0));
-    estimator.camera.look_at = glam::dvec3(place(-1.0, 1.0), place(1.0, 5.0), place(-19.0, -9.0));
-    estimator.camera.up.x = place(-0.5, 0.5);
-    let mut part = |low: f32, high: f32| low + random.f32() * (high - low);
-    estimator.camera.vfov_radians = (f64::from(part(5.0, 140.0)) / 1.01).to_radians();
-    estimator.camera.metres_per_unit = f64::from(part(0.01, 3.0)) / 3.0;
-    estimator.model = CameraModel::NAMES[part(0.0, 2.99) as usize].1;
-    estimator.lens.diameter = part(0.0, 2.0);
-    estimator.lens.focal_distance = part(0.1, 99.0);
-    estimator.hole.diameter = part(0.0, 0.2);
-    estimator.hole.upright = part(0.0, 1.0) > 0.5;
-    estimator.aperture.blades = 3 + part(0.0, 13.0) as u32;
-    estimator.aperture.rotation_degrees = part(-180.0, 180.0);
-    estimator.aperture.roundness = part(0.0, 1.0);
-    estimator.aperture.anamorphic = part(0.2, 5.0);
-    estimator.shutter = part(0.001, 2.0);
-    estimator.size = [part(1.0, 999.0) as u32, part(1.0, 999.0) as u32];
-    estimator.jitter = part(0.0, 9.0);
-    estimator.max_bounces = part(0.0, 9.0) as u32;
-    estimator.sampler = Sampler::NAMES[part(0.0, 2.99) as usize].1;
-    estimator.seed = part(0.0, 1e6) as u32;
-    estimator.noise_threshold = part(0.0, 0.1);
-    view.exposure_stops = part(-5.0, 5.0);
-    view.iso = part(20.0, 3000.0);
-    view.exposure_lock = part(0.0, 1.0) > 0.5;
-    view.tolerance = part(0.1, 9.0);
-    let overlay = Overlay::NAMES[part(0.0, 5.99) as usize].1;
-    settings.samples = part(1.0, 999.0) as u32;
-    settings.show(Some(overlay));
+    let plain = settings.clone();
+    // The cat's eye is a shape of its own, beside which there are no blades.
+    for setting in list::own().filter(|setting| setting.flag != "cats-eye") {
+        let slider = setting.row.as_ref().and_then(|row| match &row.widget {
+            Widget::Slider(slider) => Some((slider.range)(&plain).map(f64::from)),
+            _ => None,
+        });
+        let mut part = |range: [f64; 2], most: f64| {
+            let [low, high] = slider.unwrap_or(range);
+            let (low, high) = (low.max(-most), high.min(most));
+            low + random.f64() * (high - low)
+        };
+        let value = match &setting.access {
+            Access::Single(_, range) | Access::Seconds(_, range) => {
+                Value::Single(part(range.map(f64::from), 99.0) as f32)
+            }
+            Access::Double(_, range) => Value::Double(part(*range, 99.0)),
+            Access::Whole(_, range) | Access::WholeOrZero(_, range, _) => {
+                Value::Whole(part(range.map(f64::from), 1e6) as u32)
+            }
+            Access::Switch(_) => Value::Switch(random.bool()),
+            Access::Vector(_, range) => {
+                Value::Vector(glam::DVec3::from_array([(); 3].map(|()| part(*range, 9.0))))
+            }
+            Access::Size(..) => Value::Size([random.u32(1..999), random.u32(1..999)]),
+            Access::Choice(_, choices) => Value::Name(random.choice(choices()).expect("a choice").name),
+            Access::Image(_) => continue,
+        };
+        setting.set(&mut settings, &value).expect("no image");
+    }
     settings.check().expect("settings that there can be");
     settings
 }
@@ -269,11 +268,10 @@ fn a_saved_scene_has_the_settings_it_was_saved_with() {
                 assert_eq!(again.view, settings.view, "{name}");
             }
             again.view.exposure_stops = settings.view.exposure_stops;
-            // How it is sampled is not the scene's.
-            again.samples = settings.samples;
-            let (now, was) = (&mut again.estimator, &settings.estimator);
-            (now.jitter, now.sampler, now.seed) = (was.jitter, was.sampler, was.seed);
-            (now.noise_threshold, now.scene) = (was.noise_threshold, was.scene.clone());
+            for setting in list::own().filter(|setting| setting.is_of_sampling()) {
+                setting.set(&mut again, &setting.get(&settings)).expect("no image");
+            }
+            again.estimator.scene = settings.estimator.scene.clone();
             assert_eq!(again, settings, "{name}");
             let text = std::fs::read_to_string(&file).expect("text");
             assert!(!name.ends_with("own.toml") || text.contains("# from here") == (settings == plain));

@@ -7,7 +7,7 @@ use super::telemetry;
 use crate::error::{Error, Result};
 use crate::output::{self, Origin, PictureFormat};
 use crate::scene::{self, ApertureImage, BUILTINS, SceneRef};
-use crate::settings::Settings;
+use crate::settings::{Called, Settings};
 use std::path::{Path, PathBuf};
 
 /// Files that are offered again.
@@ -168,7 +168,9 @@ impl Panel {
 
     /// The renderer did not: back to what it took last, and say why.
     pub(super) fn refuse(&mut self, error: &Error) {
-        self.say(error.to_string());
+        // What is wrong with a number is said in the panel's words.
+        let own = self.settings.check_as(Called::Label).err();
+        self.say(own.as_ref().unwrap_or(error).to_string());
         self.restore(self.accepted.clone());
     }
 
