@@ -208,19 +208,19 @@ fn command_line(input: &[u8]) -> Outcome {
 /// The settings of all pictures that a command asks for, as the program makes them.
 fn pictures(command: Command) -> Result<Vec<Settings>> {
     Ok(match command {
-        Command::View(args) => vec![args.settings.of_window()?],
+        Command::View(args) => vec![args.settings.for_viewer()?],
         Command::Render(args) => vec![match &args.from {
             Some(picture) => args.settings.of_picture(&Origin::read(picture)?.arguments)?,
-            None => args.settings.of_file()?,
+            None => args.settings.for_render()?,
         }],
         Command::Sweep(args) => {
-            let pictures = args.sweep().pictures(&args.settings.of_file()?)?;
+            let pictures = args.sweep().pictures(&args.settings.for_render()?)?;
             assert!(!pictures.is_empty(), "a sheet without pictures");
             pictures.iter().for_each(|picture| drop(args.sweep().labels(picture)));
             pictures
         }
-        Command::Save(args) => vec![args.settings.of_file()?],
-        Command::Verify(args) => args.settings.of_proof()?,
+        Command::Save(args) => vec![args.settings.for_render()?],
+        Command::Verify(args) => args.settings.for_verify()?,
         Command::Bench(args) => args.pictures()?,
         Command::Devices | Command::Scenes => Vec::new(),
     })

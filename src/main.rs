@@ -23,7 +23,7 @@ fn run(command: Command) -> Result<()> {
         Command::Render(RenderArgs { from, settings, autofocus, output, stats, device, quiet }) => {
             let settings = output::load(quiet, || match &from {
                 Some(picture) => settings.of_picture(&output::Origin::read(picture)?.arguments),
-                None => settings.of_file(),
+                None => settings.for_render(),
             })?;
             output::render(&output::Job {
                 settings,
@@ -36,16 +36,16 @@ fn run(command: Command) -> Result<()> {
             })
         }
         Command::Sweep(args) => output::sweep(&output::SweepJob {
-            settings: output::load(args.quiet, || args.settings.of_file())?,
+            settings: output::load(args.quiet, || args.settings.for_render())?,
             sweep: args.sweep(),
             columns: args.columns,
             output: args.output,
             device: args.device.choice(),
             quiet: args.quiet,
         }),
-        Command::Save(args) => output::save_scene(&args.settings.of_file()?, &args.output),
+        Command::Save(args) => output::save_scene(&args.settings.for_render()?, &args.output),
         Command::Verify(args) => {
-            output::say(&verify::run(&args.settings.of_proof()?, &args.device.choice())?)
+            output::say(&verify::run(&args.settings.for_verify()?, &args.device.choice())?)
         }
         Command::Bench(args) => bench::run(&bench::Job {
             pictures: args.pictures()?,
@@ -60,7 +60,7 @@ fn run(command: Command) -> Result<()> {
 
 fn view(args: &ViewArgs) -> Result<()> {
     let (memory, device) = (app::Memory::load(), args.device.choice());
-    let named = || output::load(false, || args.settings.of_window());
+    let named = || output::load(false, || args.settings.for_viewer());
     let again = args.settings.is_plain() && !memory.arguments.is_empty();
     // What was there the last time may be gone by now.
     let (settings, initial, message) = match again.then(|| Settings::of_arguments(&memory.arguments)) {
@@ -70,7 +70,7 @@ fn view(args: &ViewArgs) -> Result<()> {
     };
     let size = args.settings.size();
     match app::run(app::Options { settings, initial, size, memory, message, device: device.clone() }) {
-        Err(Error::NoDisplay(why)) => output::render_instead(args.settings.of_file()?, device, &why),
+        Err(Error::NoDisplay(why)) => output::render_instead(args.settings.for_render()?, device, &why),
         outcome => outcome,
     }
 }

@@ -27,22 +27,22 @@ impl SettingsArgs {
     /// The settings of a picture for a file.
     ///
     /// # Errors
-    /// Of the scene, or [`crate::error::Error::OutOfRange`].
-    pub fn of_file(&self) -> Result<Settings> {
+    /// Those of loading a scene, or [`crate::error::Error::OutOfRange`].
+    pub fn for_render(&self) -> Result<Settings> {
         self.resolve(DEFAULT_SAMPLES)
     }
 
     /// The settings of a picture for a file that starts from another one's arguments.
     ///
     /// # Errors
-    /// Of either, or of the scene.
+    /// Those of an argument that does not parse, or of loading the scene.
     pub fn of_picture(&self, arguments: &[OsString]) -> Result<Settings> {
         let mut settings = Settings::of_arguments(arguments)?;
         self.changes.apply(&mut settings)?;
         Ok(settings)
     }
 
-    /// Whether nothing was named.
+    /// Whether neither a scene nor an option was given.
     pub fn is_plain(&self) -> bool {
         self.scene.is_none() && self.changes.is_empty()
     }
@@ -50,8 +50,8 @@ impl SettingsArgs {
     /// The settings that the viewer starts with.
     ///
     /// # Errors
-    /// Of the scene, or [`crate::error::Error::OutOfRange`].
-    pub fn of_window(&self) -> Result<Settings> {
+    /// Those of loading a scene, or [`crate::error::Error::OutOfRange`].
+    pub fn for_viewer(&self) -> Result<Settings> {
         self.resolve(DEFAULT_VIEW_SAMPLES)
     }
 
@@ -59,15 +59,15 @@ impl SettingsArgs {
     /// each that is built in.
     ///
     /// # Errors
-    /// Of the scene, or [`crate::error::Error::OutOfRange`].
-    pub fn of_proof(&self) -> Result<Vec<Settings>> {
+    /// Those of loading a scene, or [`crate::error::Error::OutOfRange`].
+    pub fn for_verify(&self) -> Result<Vec<Settings>> {
         let named = self.scene.as_deref().map(|name| vec![name]);
         let names = named.unwrap_or_else(|| BUILTINS.iter().map(|builtin| Path::new(builtin.name)).collect());
         let proof = |name: &Path| {
             let mut settings = Settings::of_scene(SceneRef::new(scene::load(name)?));
             (settings.estimator.size, settings.samples) = (PROOF_SIZE, PROOF_SAMPLES);
             self.changes.apply(&mut settings)?;
-            // The oracle has no noise to go by: it is held against single samples.
+            // Single samples are compared with the oracle, so no pixel may stop before the others.
             settings.estimator.noise_threshold = 0.0;
             Ok(settings)
         };
