@@ -22,8 +22,7 @@
 //! settings.samples = 16;
 //!
 //! let device = Device::open(&Instance::new(false, None)?, None, None)?;
-//! let mut renderer = Renderer::new(&device)?;
-//! renderer.set(&settings)?;
+//! let mut renderer = Renderer::new(&device, &settings)?;
 //! renderer.render(|_| ())?;
 //!
 //! let film = renderer.read_film()?; // the mean red, green and blue, and the number of samples of each pixel
