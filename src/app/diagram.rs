@@ -40,7 +40,7 @@ pub struct Diagram {
     pub centre: Line,
     /// Primary rays from all over the lens, upwards: for the side view.
     pub fan_up: Vec<Line>,
-    /// Likewise, from left to right: for the top view.
+    /// Primary rays from all over the lens, from left to right: for the top view.
     pub fan_across: Vec<Line>,
     /// Those of the pixel's first samples.
     pub samples: Vec<Line>,
@@ -58,7 +58,7 @@ pub struct ImageSide {
     /// Light from what is seen, through points of the lens, to the film: lines that start on the lens, on its
     /// rim first. They cross where the sharp picture of it would be.
     pub light_up: Vec<Line>,
-    /// Likewise, through points from left to right.
+    /// Light as in `light_up`, but through points of the lens from left to right.
     pub light_across: Vec<Line>,
     /// How far behind the lens they cross, where they do.
     pub crossing: Option<f64>,

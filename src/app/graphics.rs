@@ -155,7 +155,7 @@ impl Graphics {
         Ok(ready)
     }
 
-    /// Likewise, with what was made for them.
+    /// Renders these settings from now on, with parts that were made for them.
     pub(super) fn set_prepared(&mut self, settings: &Settings, prepared: &Prepared) -> Result<()> {
         self.renderer.set_prepared(settings, prepared)
     }

@@ -121,7 +121,7 @@ impl Panel {
         self.settings.estimator.size = size;
     }
 
-    /// Likewise, but only where the camera stands and looks.
+    /// Puts the camera back to where the scene was opened, and leaves all else.
     pub(super) fn reset_camera(&mut self) {
         let (camera, initial) = (&mut self.settings.estimator.camera, &self.initial.estimator.camera);
         (camera.eye, camera.look_at, camera.up) = (initial.eye, initial.look_at, initial.up);

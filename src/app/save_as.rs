@@ -4,7 +4,7 @@ use std::path::Path;
 
 /// The name that pictures have until another one is typed.
 const PICTURE: &str = "thinlens.png";
-/// Likewise, of scenes.
+/// The name that scenes have until another one is typed.
 const SCENE: &str = "scene.toml";
 
 /// What is typed into the panel's fields.

@@ -7,7 +7,7 @@ pub(super) fn float(value: f32) -> f32 {
     if value.is_subnormal() { 0.0 } else { value }
 }
 
-/// Likewise.
+/// A vector with zeros in place of denormal numbers.
 pub(super) fn floats(vector: Vec3) -> [f32; 3] {
     vector.to_array().map(float)
 }

@@ -18,9 +18,6 @@ impl Accumulate {
 
     /// Compiles the pass from its shader, or one with the same interface, for the constants of the
     /// estimator that the samples are of.
-    ///
-    /// # Errors
-    /// What Vulkan says.
     pub fn new(
         device: &Arc<Device>,
         shader: Shader,
@@ -32,9 +29,6 @@ impl Accumulate {
 
     /// From the tracing image `traced` into `film`. Once some pixels have stopped, `list` of `adaptive` holds
     /// those to merge.
-    ///
-    /// # Errors
-    /// What Vulkan says.
     pub fn bind(
         &self,
         traced: &Arc<Image>,

@@ -22,9 +22,6 @@ impl Adaptive {
     pub const LIST_HEADER: u64 = size_of::<u32>() as u64;
 
     /// For an adaptive picture of this size, or one that is not adaptive.
-    ///
-    /// # Errors
-    /// [`crate::error::Error::Memory`], or what Vulkan says.
     pub fn new(device: &Arc<Device>, size: Option<[u32; 2]>) -> Result<Self> {
         let size = size.unwrap_or([1, 1]);
         let moments = |name| Image::r32f(device, name, size).map(Arc::new);

@@ -15,9 +15,6 @@ pub struct ApertureBuffers {
 impl ApertureBuffers {
     /// Uploads the running sums of the aperture's image, if it has one. The shape has to be recorded before it is
     /// used.
-    ///
-    /// # Errors
-    /// [`crate::error::Error::Memory`], or what Vulkan says.
     pub fn new(device: &Arc<Device>, sums: &[[f32; 4]]) -> Result<Self> {
         let size = size_of::<ApertureBuffer>() as u64;
         Ok(Self {

@@ -12,9 +12,6 @@ pub struct BlueNoiseTile(Arc<TexelBuffer>);
 
 impl BlueNoiseTile {
     /// Uploads it.
-    ///
-    /// # Errors
-    /// [`crate::error::Error::Memory`], or what Vulkan says.
     pub fn new(device: &Arc<Device>) -> Result<Self> {
         let numbers = include_bytes!("../../shaders/blue_noise_tile.bin");
         Ok(Self(Arc::new(TexelBuffer::upload(device, "blue-noise tile", numbers)?)))

@@ -18,17 +18,11 @@ impl Geometry {
     pub const SHADER: Shader = shader!("geometry");
 
     /// Compiles the pass from its shader, or one with the same interface, for the constants of a scene.
-    ///
-    /// # Errors
-    /// What Vulkan says.
     pub fn new(device: &Arc<Device>, shader: Shader, scene: &SceneBuffers) -> Result<Self> {
         Ok(Self(ComputePipeline::new(device, shader, scene.constants())?))
     }
 
     /// From `scene` into `depth`.
-    ///
-    /// # Errors
-    /// What Vulkan says.
     pub fn bind(&self, scene: &SceneBuffers, depth: &Arc<Image>) -> Result<BindingSet> {
         let mut bindings = scene.bindings();
         bindings.push((binding::DEPTH_IMAGE, Binding::Image(Arc::clone(depth))));

@@ -1,7 +1,7 @@
 //! The passes, in the order of the data: a pipeline and its `record()` each. Trace, accumulate and resolve
 //! make every picture; select belongs to adaptive ones, pick says what lies under a pixel, and geometry how
 //! deep all of them see. A pass, its shader, its file and its debug label
-//! share one name.
+//! share one name. Every `Result` can have the errors of [`crate::vulkan`].
 
 mod accumulate;
 mod adaptive;

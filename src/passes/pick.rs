@@ -25,16 +25,13 @@ pub struct PickBindings {
 impl Pick {
     /// The shader.
     pub const SHADER: Shader = shader!("pick");
-    /// Rays of a fan, and samples, at most.
+    /// The most rays of a fan.
     pub const MOST_FAN: u32 = 65;
-    /// Likewise.
+    /// The most samples that are followed.
     pub const MOST_SAMPLES: u32 = 256;
 
     /// Compiles the pass from its shader, or one with the same interface, for the constants of an
     /// estimator and a scene.
-    ///
-    /// # Errors
-    /// What Vulkan says.
     pub fn new(
         device: &Arc<Device>,
         shader: Shader,
@@ -48,9 +45,6 @@ impl Pick {
     }
 
     /// From `scene`, seen through `aperture`, into a buffer that the host reads.
-    ///
-    /// # Errors
-    /// What Vulkan says.
     pub fn bind(&self, scene: &SceneBuffers, aperture: &ApertureBuffers) -> Result<PickBindings> {
         let most_rays = 1 + 2 * Self::MOST_FAN + Self::MOST_SAMPLES;
         let size = u64::from(most_rays) * size_of::<PickedRay>() as u64;

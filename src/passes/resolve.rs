@@ -15,9 +15,9 @@ pub struct Resolve(ComputePipeline);
 pub enum ResolveKind {
     /// Every texel that it looks at has a sample.
     WithoutHoles,
-    /// Some may have none.
+    /// Some texels may have no sample.
     WithHoles,
-    /// Likewise, with what overlays need, for a film with second moments or without.
+    /// Some texels may have no sample, and an overlay is drawn, for a film with second moments or without.
     Overlay {
         /// Whether the film has them.
         has_moments: bool,
@@ -29,9 +29,6 @@ impl Resolve {
     pub const SHADER: Shader = shader!("resolve");
 
     /// Compiles the pass from its shader, or one with the same interface.
-    ///
-    /// # Errors
-    /// What Vulkan says.
     pub fn new(device: &Arc<Device>, shader: Shader, kind: ResolveKind) -> Result<Self> {
         let has_moments = kind == ResolveKind::Overlay { has_moments: true };
         let constants = [
@@ -43,9 +40,6 @@ impl Resolve {
     }
 
     /// From `film` into `picture`, for passes of every kind. Overlays also look at `depth` and moments.
-    ///
-    /// # Errors
-    /// What Vulkan says.
     pub fn bind(
         &self,
         film: &Arc<Image>,

@@ -29,7 +29,7 @@ impl SceneBuffers {
     /// Uploads a scene.
     ///
     /// # Errors
-    /// [`Error::Limit`] where it has more shapes than a tree can hold, [`Error::Memory`], or what Vulkan says.
+    /// [`Error::Limit`] where it has more shapes than a tree can hold.
     pub fn new(device: &Arc<Device>, scene: &SceneData) -> Result<Self> {
         let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
         if scene.records.len() > MOST_RECORDS {

@@ -14,18 +14,12 @@ impl Select {
     pub const SHADER: Shader = shader!("select");
 
     /// Compiles the pass from its shader, or one with the same interface.
-    ///
-    /// # Errors
-    /// What Vulkan says.
     pub fn new(device: &Arc<Device>, shader: Shader, estimator: &[(u32, u32)]) -> Result<Self> {
         Ok(Self(ComputePipeline::new(device, shader, estimator)?))
     }
 
     /// From the pixels that `list` of `adaptive` holds, by `film`, to the other list. In the tracing image
     /// `traced` those that stop are emptied.
-    ///
-    /// # Errors
-    /// What Vulkan says.
     pub fn bind(
         &self,
         traced: &Arc<Image>,

@@ -19,9 +19,6 @@ impl Trace {
 
     /// Compiles the pass from its shader, or one with the same interface, for the constants of an
     /// estimator and a scene.
-    ///
-    /// # Errors
-    /// What Vulkan says.
     pub fn new(
         device: &Arc<Device>,
         shader: Shader,
@@ -36,9 +33,6 @@ impl Trace {
 
     /// From `scene`, seen through `aperture`, into the tracing image `traced`, counting into `counters`. Once some
     /// pixels have stopped, `list` of `adaptive` holds those to trace.
-    ///
-    /// # Errors
-    /// What Vulkan says.
     pub fn bind(
         &self,
         scene: &SceneBuffers,

@@ -15,18 +15,12 @@ const READ_AT_ONCE: u64 = 1 << 26;
 
 impl Renderer {
     /// Renders until the target is reached. `on_progress` is called after every submission.
-    ///
-    /// # Errors
-    /// What Vulkan says.
     pub fn render(&mut self, on_progress: impl FnMut(&Progress)) -> Result<()> {
         let pace = Pace { budget: HEADLESS_BUDGET, preview: false };
         self.render_at(pace, on_progress)
     }
 
-    /// Likewise, at another pace.
-    ///
-    /// # Errors
-    /// What Vulkan says.
+    /// Renders until the target is reached, at another pace. `on_progress` is called after every submission.
     pub fn render_at(&mut self, pace: Pace, mut on_progress: impl FnMut(&Progress)) -> Result<()> {
         let mut commands = Commands::new(&self.preparer.device)?;
         while !self.finished() {
@@ -41,9 +35,6 @@ impl Renderer {
     }
 
     /// The film: mean r, g, b and count of each pixel, row by row from the top left.
-    ///
-    /// # Errors
-    /// [`crate::error::Error::Memory`], or what Vulkan says.
     pub fn read_film(&mut self) -> Result<Vec<[f32; 4]>> {
         let bytes = self.read_image(
             |images| &images.film,
@@ -53,9 +44,6 @@ impl Renderer {
     }
 
     /// The picture: r, g, b, 255 of each pixel, sRGB, row by row from the top left.
-    ///
-    /// # Errors
-    /// [`crate::error::Error::Memory`], or what Vulkan says.
     pub fn read_picture(&mut self) -> Result<Vec<u8>> {
         self.read_image(
             |images| &images.picture,
@@ -64,9 +52,6 @@ impl Renderer {
     }
 
     /// Ends the merging under way, if any, so that all pixels of the film have the samples of whole batches.
-    ///
-    /// # Errors
-    /// What Vulkan says.
     pub fn settle(&mut self) -> Result<()> {
         let mut commands = Commands::new(&self.preparer.device)?;
         let mut recording = commands.begin()?;
@@ -80,9 +65,6 @@ impl Renderer {
     }
 
     /// A copy of the picture as it is now, which outlives it.
-    ///
-    /// # Errors
-    /// [`crate::error::Error::Memory`], or what Vulkan says.
     pub fn hold_picture(&mut self) -> Result<Image> {
         let held = Image::rgba8(&self.preparer.device, "held picture", self.picture().extent())?;
         let mut commands = Commands::new(&self.preparer.device)?;

@@ -1,7 +1,7 @@
 //! Owns the film, the scene on the device, and the passes. Knows no window and no file.
 //!
 //! Work is recorded in tiles whose time is bounded; whole batches are merged into the film.
-//! None of that changes the picture: see [`schedule`].
+//! None of that changes the picture: see [`schedule`]. Every `Result` can have the errors of [`crate::vulkan`].
 //!
 //! What settings need is [`Prepared`], on any thread; with the images of the film it is `Loaded`; and [`Renderer`]
 //! records passes on it.
@@ -83,7 +83,7 @@ impl Renderer {
         Self::with_shaders(device, Shaders::default(), settings)
     }
 
-    /// Likewise, with these shaders for its passes.
+    /// A renderer of these settings, with these shaders for its passes.
     ///
     /// # Errors
     /// As [`Self::set`].
@@ -119,20 +119,21 @@ impl Renderer {
     /// already holds more samples than wanted. After an error it is what it was before.
     ///
     /// # Errors
-    /// [`crate::error::Error::OutOfRange`], [`crate::error::Error::Limit`], [`crate::error::Error::Memory`], or what
-    /// Vulkan says.
+    /// [`crate::error::Error::OutOfRange`], [`crate::error::Error::Limit`], or those of
+    /// [`crate::vulkan`].
     pub fn set(&mut self, settings: &Settings) -> Result<()> {
         self.set_and_answer(settings, self.loaded.prepared.answers())
     }
 
-    /// Likewise. `answers`: whether questions are asked of the picture.
+    /// Does as [`Self::set`]. `answers` says whether questions are asked of the picture.
     fn set_and_answer(&mut self, settings: &Settings, answers: bool) -> Result<()> {
         settings.check()?;
         let prepared = self.preparer.prepare(settings, answers, Some(&self.loaded.prepared))?;
         self.load(settings, prepared)
     }
 
-    /// Likewise, with what was prepared for them, so that it takes no time. What does not fit them is made anew.
+    /// Does as [`Self::set`] with parts that were prepared for these settings, so that it takes no time. Parts that do not
+    /// fit the settings are made anew.
     ///
     /// # Errors
     /// As [`Self::set`].
@@ -190,9 +191,6 @@ impl Renderer {
     }
 
     /// Takes in what the device measured and counted while it ran `frame`, whose commands are done.
-    ///
-    /// # Errors
-    /// What Vulkan says: a lost device.
     pub fn collect(&mut self, frame: usize) -> Result<()> {
         self.tally.collect(frame)
     }

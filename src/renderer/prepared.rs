@@ -100,8 +100,8 @@ impl Preparer {
     /// Makes what these settings need, and shares what `old` has of it. `answers`: as for [`Keys::new`].
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] where the device cannot trace the scene, [`Error::Limit`], [`Error::Memory`], or what
-    /// Vulkan says.
+    /// [`Error::OutOfRange`] where the device cannot trace the scene, [`Error::Limit`], or those of
+    /// [`crate::vulkan`].
     pub fn prepare(&self, settings: &Settings, answers: bool, old: Option<&Prepared>) -> Result<Prepared> {
         let keys = Keys::new(settings, answers);
         let (device, shaders, tile) = (&self.device, &self.shaders, &self.tile);
@@ -192,7 +192,7 @@ fn share_or<T>(there: Option<&Arc<T>>, make: impl FnOnce() -> Result<T>) -> Resu
     }
 }
 
-/// Likewise, where it is needed.
+/// Shares or makes a part as [`share_or`] does, but only if it is needed.
 fn share_or_if<T>(
     needed: bool,
     there: Option<&Arc<T>>,

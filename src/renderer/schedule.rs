@@ -66,7 +66,7 @@ const PHASES_OF_16: [[u32; 2]; 16] = [
 ];
 const _: () =
     assert!(PHASES_OF_16[0][0] == PREVIEW_SITE && PHASES_OF_16[0][1] == PREVIEW_SITE && PREVIEW_STRIDE == 4);
-/// Likewise for a cell of 2 x 2.
+/// The order in which the pixels of a cell of 2 x 2 are traced.
 const PHASES_OF_4: [[u32; 2]; 4] = [[0, 0], [1, 1], [1, 0], [0, 1]];
 
 /// Samples `first_sample .. first_sample + sample_count` of every pixel of one lattice.

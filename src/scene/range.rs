@@ -49,7 +49,7 @@ where
     Err(format!("is {value}, but must be from {low} to {high}"))
 }
 
-/// Likewise, where 0 stands for something else.
+/// Checks a number as [`in_range`] does, but allows 0, which stands for something else.
 ///
 /// # Errors
 /// As [`in_range`].

@@ -10,13 +10,13 @@ use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 impl Settings {
-    /// What follows `thinlens render` to get this picture again, but for where to: the scene as it was named,
-    /// size and samples, and what is not as the scene has it.
+    /// The arguments after `thinlens render`, without `-o`, that render this picture again: the scene as it was named, size,
+    /// samples, and every setting that is not as the scene has it.
     pub fn arguments(&self) -> Vec<OsString> {
         self.arguments_with(Path::to_path_buf)
     }
 
-    /// Likewise, to be used in another folder: files have whole paths.
+    /// The arguments as [`Self::arguments`] gives them, but with absolute paths, so that they hold in every folder.
     pub fn arguments_from_anywhere(&self) -> Vec<OsString> {
         self.arguments_with(|file| std::path::absolute(file).unwrap_or_else(|_| file.to_path_buf()))
     }

@@ -149,8 +149,8 @@ pub enum Sampler {
     /// The Sobol sequence, Owen-scrambled, four dimensions for film and lens together: a pixel's samples
     /// keep apart from each other on both. B. Burley, JCGT 9(4), 2020.
     Sobol,
-    /// Likewise, and the errors of neighbouring pixels oppose each other, which the eye averages: most with
-    /// the first samples, a little still with 16. Arranged as E. Heitz, L. Belcour, V. Ostromoukhov, D. Coeurjolly and J.-C. Iehl
+    /// The Sobol sequence, with the errors of neighbouring pixels opposed to each other, so that the eye averages them: most
+    /// with the first samples, and still a little with 16. The samples are arranged as E. Heitz, L. Belcour, V. Ostromoukhov, D. Coeurjolly and J.-C. Iehl
     /// do, "A Low-Discrepancy Sampler that Distributes Monte Carlo Errors as a Blue Noise in Screen
     /// Space", SIGGRAPH Talks 2019, but by masks on one sequence: I. Georgiev and M. Fajardo, "Blue-noise
     /// Dithered Sampling", SIGGRAPH Talks 2016.
@@ -268,7 +268,7 @@ impl Settings {
         self.view.exposure_stops.exp2() * light as f32
     }
 
-    /// Holds every number against its range, and what belongs together against each other.
+    /// Checks that every number is in its range, and that settings that belong together fit each other.
     ///
     /// # Errors
     /// [`Error::OutOfRange`], naming the option, the value and the range.
@@ -276,7 +276,7 @@ impl Settings {
         self.check_as(Called::Flag)
     }
 
-    /// Likewise, where the user calls the settings otherwise.
+    /// Checks as [`Self::check`] does. Errors name the settings as the user called them.
     ///
     /// # Errors
     /// As [`Settings::check`].

@@ -45,7 +45,7 @@ pub(super) enum Action {
     Autofocus,
     /// Back to the settings that the scene was opened with.
     Reset,
-    /// Likewise, but only where the camera stands and looks.
+    /// Put the camera back to where the scene was opened.
     ResetCamera,
     /// Take the last change back.
     Undo,

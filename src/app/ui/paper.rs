@@ -109,7 +109,7 @@ impl<'a> Paper<'a> {
         self.list.add_line([x, self.height(low)], [x, self.height(high)], color).thickness(thickness).build();
     }
 
-    /// Likewise, all over the paper.
+    /// A line across the axis at a depth, all over the paper.
     pub(super) fn tall(&self, depth: f64, color: Color) {
         let [x, _] = self.place(DVec3::new(0.0, 0.0, depth));
         self.list.add_line([x, self.min[1]], [x, self.max[1]], color).thickness(1.5).build();

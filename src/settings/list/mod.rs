@@ -54,7 +54,7 @@ macro_rules! field {
     };
 }
 
-/// Likewise, by its name among [`super::Sampler::NAMES`] and their like.
+/// The access to a field whose values have names, among [`super::Sampler::NAMES`] and their like.
 macro_rules! by_name {
     ($names:expr, $($path:ident).+) => {
         crate::settings::Field {
