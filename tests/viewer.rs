@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::viewer::{Server, Viewer, difference};
+use common::viewer::{Server, Viewer, x11::difference};
 use common::{Run, thinlens};
 use std::time::Duration;
 

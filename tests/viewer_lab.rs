@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::viewer::{Viewer, difference};
+use common::viewer::{Viewer, x11::difference};
 use common::{decode_png, render_png, run};
 use std::process::Command;
 use std::time::Duration;

@@ -4,7 +4,9 @@
 //! has seen, which frames it began, and what is set and shown: a test waits until an event was seen and drawn before it
 //! looks or goes on.
 
-use super::{CACHE, Killed, decode_png, render_png};
+pub mod x11;
+
+use super::{CACHE, Killed};
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::io::{BufRead, BufReader};
@@ -14,18 +16,10 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 use thinlens::app::telemetry;
-use x11rb::CURRENT_TIME;
 use x11rb::connection::Connection;
-use x11rb::protocol::Event;
-use x11rb::protocol::xproto::{
-    ClientMessageEvent, ConnectionExt, CreateWindowAux, EventMask, ImageFormat, PropMode,
-    SELECTION_NOTIFY_EVENT, SelectionNotifyEvent, Window, WindowClass,
-};
+use x11rb::protocol::xproto::Window;
 use x11rb::rust_connection::RustConnection;
-use x11rb::wrapper::ConnectionExt as _;
 
-/// Right of the panel.
-const PICTURE_LEFT: usize = 340;
 /// After an event the viewer draws three frames at least. Two see what comes of it, and are over when the third
 /// one begins.
 const FRAMES: usize = 3;
@@ -116,7 +110,7 @@ impl Viewer {
         Self::start_as_user(size, &[&["--validation"], arguments].concat())
     }
 
-    /// Likewise, with no more checks than a user has.
+    /// Starts a display and the viewer in it with no more checks than a user has, and waits for its panel.
     pub fn start_as_user(size: [u16; 2], arguments: &[&str]) -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let size_argument = format!("{}x{}", size[0], size[1]);
@@ -126,12 +120,12 @@ impl Viewer {
         viewer
     }
 
-    /// Likewise, in this folder, whose window must come out in this size.
+    /// Starts a display and the viewer in it, in this folder. Its window must come out in this size.
     pub fn start_in(folder: &Path, size: [u16; 2], arguments: &[&str]) -> Self {
         Self::start_with(folder, size, arguments, &[])
     }
 
-    /// Likewise, with these variables in its environment.
+    /// Starts a display and the viewer in it, in this folder and with these variables in its environment.
     pub fn start_with(folder: &Path, size: [u16; 2], arguments: &[&str], variables: &[(&str, &str)]) -> Self {
         let Server { process: server, display } = Server::start();
         let mut program = Command::new(env!("CARGO_BIN_EXE_thinlens"))
@@ -409,113 +403,6 @@ impl Viewer {
             }
         }
     }
-
-    /// What the screen shows of a rectangle: left, top, width, height.
-    pub fn screen(&self, [left, top]: [i16; 2], [width, height]: [u16; 2]) -> Vec<[u8; 3]> {
-        let reply = self.connection.get_image(ImageFormat::Z_PIXMAP, self.root, left, top, width, height, !0);
-        let data = reply.expect("a request").reply().expect("a screenshot").data;
-        data.chunks_exact(4).map(|pixel| [pixel[2], pixel[1], pixel[0]]).collect()
-    }
-
-    /// What the screen shows of the window, right of the panel.
-    pub fn picture(&self) -> Vec<[u8; 3]> {
-        right_of_panel(&self.screen([0, 0], self.size), usize::from(self.size[0]))
-    }
-
-    /// Waits until the screen shows what `render` gives, but for `tolerance` levels of a channel.
-    pub fn expect_picture(&self, what: &str, tolerance: u8, render: &[&str]) {
-        self.expect_rows(what, usize::from(self.size[1]), tolerance, render);
-    }
-
-    /// Likewise, but only of the upper rows: there may be a legend below.
-    pub fn expect_rows(&self, what: &str, rows: usize, tolerance: u8, render: &[&str]) {
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        let size = format!("{}x{}", self.size[0], self.size[1]);
-        let png = render_png(folder.path(), &[&["--size", &size], render].concat());
-        let expected = right_of_panel(&decode_png(&png).1, usize::from(self.size[0]));
-        let deadline = Instant::now() + PATIENCE;
-        let compared = rows * (usize::from(self.size[0]) - PICTURE_LEFT);
-        loop {
-            let shown = self.picture();
-            let worst = difference(&shown[..compared], &expected[..compared]);
-            if worst <= tolerance {
-                break;
-            }
-            assert!(Instant::now() < deadline, "{what}: off by {worst} levels");
-            self.listen(Duration::from_millis(50));
-        }
-    }
-
-    fn atom(&self, name: &str) -> u32 {
-        self.connection.intern_atom(false, name.as_bytes()).expect("a request").reply().expect("an atom").atom
-    }
-
-    /// Sends a message to every window of the display, of which the viewer's is the one that understands it.
-    fn tell(&self, name: &str, data: [u32; 5]) {
-        let message = self.atom(name);
-        let windows =
-            self.connection.query_tree(self.root).expect("a request").reply().expect("the windows").children;
-        for window in windows {
-            let event = ClientMessageEvent::new(32, window, message, data);
-            self.connection.send_event(false, window, EventMask::NO_EVENT, event).expect("a request");
-        }
-        self.connection.flush().expect("a connection");
-    }
-
-    /// Drops a file on the window, as a file manager does by the XDND protocol.
-    pub fn drop_file(&self, file: &Path) {
-        let connection = &self.connection;
-        let source = connection.generate_id().expect("an id");
-        let plain = CreateWindowAux::new();
-        let input_only = WindowClass::INPUT_ONLY;
-        connection
-            .create_window(0, source, self.root, -1, -1, 1, 1, 0, input_only, 0, &plain)
-            .expect("a request");
-        let (selection, uris) = (self.atom("XdndSelection"), self.atom("text/uri-list"));
-        connection.set_selection_owner(source, selection, CURRENT_TIME).expect("a request");
-        self.tell("XdndEnter", [source, 5 << 24, uris, 0, 0]);
-        let copies = self.atom("XdndActionCopy");
-        self.tell("XdndPosition", [source, 0, 500 << 16 | 300, CURRENT_TIME, copies]);
-        let wanted = loop {
-            if let Event::SelectionRequest(wanted) = connection.wait_for_event().expect("an event") {
-                break wanted;
-            }
-        };
-        let uri = format!("file://{}\r\n", file.display());
-        let (window, property) = (wanted.requestor, wanted.property);
-        connection
-            .change_property8(PropMode::REPLACE, window, property, wanted.target, uri.as_bytes())
-            .expect("a request");
-        let answer = SelectionNotifyEvent {
-            response_type: SELECTION_NOTIFY_EVENT,
-            sequence: 0,
-            time: wanted.time,
-            requestor: window,
-            selection,
-            target: wanted.target,
-            property,
-        };
-        connection.send_event(false, window, EventMask::NO_EVENT, answer).expect("a request");
-        self.tell("XdndDrop", [source, 0, CURRENT_TIME, 0, 0]);
-        connection.destroy_window(source).expect("a request");
-        connection.flush().expect("a connection");
-    }
-
-    /// Asks the window to close, as a window manager does, and waits for the end.
-    pub fn close(mut self) {
-        self.tell("WM_PROTOCOLS", [self.atom("WM_DELETE_WINDOW"), 0, 0, 0, 0]);
-        let deadline = Instant::now() + PATIENCE;
-        let status = loop {
-            if let Some(status) = self.program.0.try_wait().expect("a process") {
-                break status;
-            }
-            assert!(Instant::now() < deadline, "it does not close");
-            std::thread::sleep(Duration::from_millis(10));
-        };
-        let log: Vec<String> = self.lines.iter().collect();
-        assert!(!log.iter().any(|line| line.contains("validation:")), "{log:#?}");
-        assert!(status.success(), "{status}: {log:#?}");
-    }
 }
 
 /// What the viewer says in a line of its log about this, if it does.
@@ -528,14 +415,4 @@ pub fn said<'a>(line: &'a str, what: &str) -> Option<&'a str> {
 /// The numbers among the words of a line.
 fn numbers<T: std::str::FromStr>(line: &str) -> Vec<T> {
     line.split(' ').filter_map(|number| number.parse().ok()).collect()
-}
-
-fn right_of_panel(pixels: &[[u8; 3]], width: usize) -> Vec<[u8; 3]> {
-    pixels.chunks_exact(width).flat_map(|row| row[PICTURE_LEFT..].to_vec()).collect()
-}
-
-/// The largest difference of a channel.
-pub fn difference(a: &[[u8; 3]], b: &[[u8; 3]]) -> u8 {
-    assert_eq!(a.len(), b.len());
-    a.as_flattened().iter().zip(b.as_flattened()).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0)
 }
