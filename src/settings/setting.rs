@@ -119,6 +119,8 @@ pub struct Row {
 #[allow(missing_docs, reason = "they are called as the parts of the panel are")]
 pub enum Part {
     Top,
+    Points,
+    Model,
     Lens,
     Aperture,
     Viewpoint,

@@ -25,6 +25,7 @@ const STOPS_PER_ROW: usize = 6;
 impl Panel {
     /// What forms the picture, the f-number, and a button for each full stop.
     pub(super) fn lens(&mut self, ui: &Ui, layout: &mut Layout) {
+        self.rows(ui, Part::Model, layout);
         self.rows(ui, Part::Lens, layout);
         let estimator = &mut self.settings.estimator;
         if estimator.model != CameraModel::ThinLens {

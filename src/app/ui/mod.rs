@@ -81,6 +81,7 @@ impl Panel {
             .build(|| {
                 self.scene_chooser(ui, &mut layout);
                 self.rows(ui, Part::Top, &mut layout);
+                self.rows(ui, Part::Points, &mut layout);
                 self.progress(ui, status);
                 let mut button = |name, asks| {
                     if ui.button(name) {

@@ -56,7 +56,7 @@ pub(super) static LENS: &[Setting] = &[
         role: Role::Estimator,
         key: camera("model"),
         access: Access::Choice(by_name!(CameraModel::NAMES, estimator.model), || CAMERAS.to_vec()),
-        row: row(Part::Lens, "Camera", "What forms the picture.", Widget::List),
+        row: row(Part::Model, "Camera", "What forms the picture.", Widget::List),
     },
     Setting {
         flag: "lens-diameter",

@@ -33,7 +33,7 @@ pub(super) static PICTURE: &[Setting] = &[
         key: None,
         access: Access::Whole(field!(samples), [1, MAX_SAMPLES]),
         row: row(
-            Part::Top,
+            Part::Points,
             "Anti-aliasing points per pixel",
             "How many rays are averaged in each pixel: more give less noise. Raising it goes on from what is there.",
             Widget::Slider(Slider {
