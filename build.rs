@@ -26,8 +26,13 @@ pub struct Sources {
 }
 
 /// The folders of `shaders` that have kinds, each with their names.
-const KINDS: &[(&str, &[&str])] =
-    &[("aperture", interface::aperture::NAMES), ("shape", interface::shape::NAMES)];
+const KINDS: &[(&str, &[&str])] = &[
+    ("aperture", interface::aperture::NAMES),
+    ("light", interface::light::NAMES),
+    ("material", interface::material::NAMES),
+    ("shape", interface::shape::NAMES),
+    ("texture", interface::texture::NAMES),
+];
 
 /// A compiled shader.
 pub struct Compiled {

@@ -4,6 +4,7 @@ use super::Outcome;
 use super::{exr, oracle, png, seeds, text};
 use clap::Parser;
 use fastrand::Rng;
+use glam::DVec3;
 use std::ffi::{OsStr, OsString};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::os::unix::ffi::OsStrExt;
@@ -148,8 +149,8 @@ fn library(input: &[u8]) -> Outcome {
     write("input.mtl", input);
     let outcome = of_file("colors.obj", seeds::COLORED_MESH.as_bytes(), input)?;
     let scene = scene::load("colors.obj").map_err(|error| words(&error))?;
-    let inside = |color: f32| (0.0..=1.0).contains(&color);
-    let colors = scene.materials.iter().map(|material| material.color);
+    let inside = |color: f64| (0.0..=1.0).contains(&color);
+    let colors = scene.materials.iter().map(|material| material.brightest(DVec3::ZERO, DVec3::ONE));
     let mut distinct = Vec::new();
     for color in colors {
         assert!(color.to_array().into_iter().all(inside), "the colour {color} of an MTL file");

@@ -88,6 +88,12 @@ pub mod constant {
         LIST_BEGIN,
         /// The kinds of shapes in the scene: a bit for each [`shape`](super::shape).
         SHAPE_KINDS,
+        /// The kinds of materials in the scene, likewise.
+        MATERIAL_KINDS,
+        /// The kinds of textures in the scene.
+        TEXTURE_KINDS,
+        /// The kinds of lights in their buffer.
+        LIGHT_KINDS,
         /// Whether any triangle has normals at its corners.
         HAS_CORNER_NORMALS,
         /// Whether any shape moves.
@@ -152,6 +158,50 @@ pub mod shape {
     pub const FIRST_UNBOUNDED: u32 = PLANE;
 }
 
+/// The kinds of materials. Each has a file of its name in `shaders/material`.
+pub mod material {
+    numbered! {
+        /// Reflects light evenly into all directions.
+        MATTE,
+        /// Matte, with a highlight.
+        PHONG,
+        /// Mirrors.
+        MIRROR,
+        /// Gives off light.
+        EMISSIVE,
+    }
+}
+
+/// The kinds of textures. Each has a file of its name in `shaders/texture`.
+pub mod texture {
+    numbered! {
+        /// One colour everywhere.
+        CONSTANT,
+        /// Two colours in cells.
+        CHECKER,
+    }
+}
+
+/// The kinds of lights. Each has a file of its name in `shaders/light`.
+pub mod light {
+    numbered! {
+        /// From a point.
+        POINT,
+        /// Along parallel lines.
+        DIRECTIONAL,
+        /// What rays see that meet nothing.
+        BACKGROUND,
+    }
+}
+
+/// The ways to the radiance along a ray. Each has a file of its name in `shaders/integrator`.
+pub mod integrator {
+    numbered! {
+        /// Lights, ambient light, and mirrors.
+        WHITTED,
+    }
+}
+
 /// What can be shown instead of the picture, or on it.
 pub mod overlay {
     numbered! {
@@ -179,6 +229,10 @@ pub const LISTS: &[(&str, &[&str])] = &[
     ("SAMPLER_", sampler::NAMES),
     ("APERTURE_", aperture::NAMES),
     ("SHAPE_", shape::NAMES),
+    ("MATERIAL_", material::NAMES),
+    ("TEXTURE_", texture::NAMES),
+    ("LIGHT_", light::NAMES),
+    ("INTEGRATOR_", integrator::NAMES),
     ("OVERLAY_", overlay::NAMES),
 ];
 

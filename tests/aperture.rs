@@ -9,8 +9,8 @@ use common::{Gpu, probe, prove, render, run, settings_of};
 use std::f64::consts::PI;
 use std::path::Path;
 use std::sync::Arc;
-use thinlens::gpu_types::{ApertureBuffer, aperture_sums, lens_constants};
-use thinlens::interface::binding;
+use thinlens::gpu_types::{ApertureBuffer, aperture_constant, aperture_sums, lens_constants};
+use thinlens::interface::{self, binding};
 use thinlens::passes::{ApertureBuffers, BlueNoiseTile};
 use thinlens::reference::{aperture, sampler};
 use thinlens::scene::{Aperture, ApertureImage};
@@ -234,6 +234,11 @@ fn pictures_are_taken_through_the_aperture() {
         Aperture { image: Some(image), ..plain.clone() },
         plain,
     ];
+    let mut kinds: Vec<u32> =
+        apertures.iter().map(|of| aperture_constant(&estimator(of.clone())).1).collect();
+    kinds.sort_unstable();
+    kinds.dedup();
+    assert_eq!(kinds.len(), interface::aperture::NAMES.len(), "every kind is looked through");
     let check = |gpu: &Gpu| -> Result<String> {
         let mut renderer = gpu.renderer(&settings_of(EVERYTHING, [64, 48], 8));
         let (mut samples, mut mismatches) = (0, 0);
@@ -257,6 +262,7 @@ fn pictures_are_taken_through_the_aperture() {
             "cats_eye_on_the_other_side",
             "aperture_image_upside_down",
             "anamorphic_sideways",
+            "disc_of_half_the_area",
             "one_pair_for_film_and_lens",
         ],
     );

@@ -4,7 +4,7 @@
 
 use glam::{DVec3, Vec3};
 use std::fmt::Write;
-use thinlens::scene::{self, Bvh, Record, Scene, Triangle};
+use thinlens::scene::{self, Bvh, Matte, Record, Scene, Texture, Triangle};
 
 const HEAD: &str = "[camera]\neye = [0, 0, 9]\nlook_at = [0, 0, 0]\nvfov_degrees = 40\nlens_diameter = 0\n\
                     focal_distance = 9\n[emissive.m]\nradiance = 1\n";
@@ -167,10 +167,9 @@ fn each_library_is_read_once() {
     obj += &format!("mtllib {}\n", "a ".repeat(20_000));
     obj += &format!("usemtl a # b\nf 1 2 3\nusemtl a {}\nf 1 2 3\n", "# ".repeat(50_000));
     let scene = mesh(&obj);
-    assert_eq!(
-        scene.materials[scene.of_kind::<Triangle>().nth(1).expect("two").1.material as usize].color,
-        Vec3::X
-    );
+    let material = scene.of_kind::<Triangle>().nth(1).expect("two").1.material;
+    let red = Matte { color: Texture::constant(Vec3::X), ka: 1.0, kd: 1.0 };
+    assert_eq!(scene.materials[material as usize], red.into());
 }
 
 /// Catches polygons that take long to cut: going round again and again, or to and fro.

@@ -20,23 +20,9 @@ type Twin = (&'static str, Vec<(&'static str, usize)>, usize);
 
 fn twins() -> Vec<Twin> {
     vec![
-        twin!(
-            "Material",
-            Material,
-            [
-                color,
-                ka,
-                odd_color,
-                kd,
-                reflectance,
-                ks,
-                emission,
-                exponent,
-                checker_phase,
-                inverse_checker_size
-            ]
-        ),
-        twin!("Light", Light, [radiance, is_directional, position_or_direction]),
+        twin!("Texture", Texture, [color, kind, other_color, inverse_size, phase]),
+        twin!("Material", Material, [color, ka, kd, ks, exponent, kind]),
+        twin!("Light", Light, [radiance, kind, position_or_direction]),
         twin!("Environment", Environment, [horizon, zenith, ambient, reach]),
         twin!("Counters", Counters, [rays, rejected_samples, listed_samples]),
         twin!(

@@ -7,7 +7,7 @@ use glam::{DVec3, Vec3};
 use std::fmt::Write;
 use std::time::Duration;
 use thinlens::output::loading_line;
-use thinlens::scene::{self, Triangle};
+use thinlens::scene::{self, Emissive, Matte, Texture, Triangle};
 
 /// The triangles of an OBJ text, in its own coordinates.
 fn triangles(obj: &str) -> Vec<Triangle> {
@@ -159,11 +159,11 @@ fn colours_come_from_the_library_unless_the_scene_says_otherwise() {
         scene.of_kind::<Triangle>().map(|(_, of)| scene.materials[of.material as usize]).collect::<Vec<_>>()
     };
     let own = colors("");
-    assert_eq!(own[1].color, Vec3::new(0.9, 0.1, 0.0));
-    assert_eq!(own[2].color, Vec3::Z);
+    let matte = |color| Matte { color: Texture::constant(color), ka: 1.0, kd: 1.0 }.into();
+    assert_eq!(own[1..3], [matte(Vec3::new(0.9, 0.1, 0.0)), matte(Vec3::Z)]);
     assert_eq!((own[0], own[4]), (own[3], own[1]));
-    assert!(own.iter().all(|material| material.kd == 1.0));
-    assert!(colors("material = \"lamp\"\n").iter().all(|material| material.emission == Vec3::ONE));
+    let lamp = Emissive { radiance: Vec3::ONE }.into();
+    assert!(colors("material = \"lamp\"\n").iter().all(|material| *material == lamp));
 }
 
 /// Catches errors without file and line, or that do not say what is wrong.

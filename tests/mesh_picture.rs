@@ -7,8 +7,8 @@ use common::mesh::{HEAD, across, load, sphere};
 use glam::{DVec3, Vec3};
 use std::fmt::Write;
 use thinlens::reference::Ray;
+use thinlens::reference::integrator::whitted::radiance;
 use thinlens::reference::intersect::intersect;
-use thinlens::reference::shading::radiance;
 use thinlens::scene::{Plane, Scene, SceneRef, Triangle};
 use thinlens::settings::Settings;
 

@@ -1,8 +1,8 @@
 //! MTL files as the world writes them: how they are named and found, and the forms of colours.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use std::path::Path;
-use thinlens::scene::{self, Triangle};
+use thinlens::scene::{self, Shaded, Triangle};
 
 const HEAD: &str = "[camera]\neye = [0, 0, 9]\nlook_at = [0, 0, 0]\nvfov_degrees = 40\nlens_diameter = 0\n\
                     focal_distance = 9\n[[mesh]]\nfile = \"mesh.obj\"\n";
@@ -24,7 +24,10 @@ fn colors(head: &str, materials: &[&str], files: &[(&str, &str)]) -> Vec<Vec3> {
     }
     let path = folder.path().join("scene.toml");
     let scene = scene::load(path.to_str().expect("a plain path")).unwrap_or_else(|error| panic!("{error}"));
-    scene.of_kind::<Triangle>().map(|(_, of)| scene.materials[of.material as usize].color).collect()
+    // As it looks in white ambient light.
+    let color =
+        |of: &Shaded| scene.materials[of.material as usize].brightest(DVec3::ZERO, DVec3::ONE).as_vec3();
+    scene.of_kind::<Triangle>().map(|(_, of)| color(of)).collect()
 }
 
 /// The colour that these lines of a material give.

@@ -6,7 +6,7 @@ use std::ffi::OsStr;
 use std::os::unix::ffi::OsStrExt;
 use std::path::Path;
 use thinlens::error::Error;
-use thinlens::scene::{self, Scene, Triangle};
+use thinlens::scene::{self, Scene, Shaded, Triangle};
 
 const HEAD: &str = "[camera]\neye = [0, 0, 9]\nlook_at = [0, 0, 0]\nvfov_degrees = 40\nlens_diameter = 0\n\
                     focal_distance = 9\n[[mesh]]\nfile = \"mesh.obj\"\n";
@@ -33,7 +33,10 @@ fn triangles(obj: &[u8]) -> Vec<Triangle> {
 /// The colours of the triangles.
 fn colors(obj: &[u8], files: &[(&[u8], &[u8])]) -> Vec<Vec3> {
     let scene = load(obj, files).unwrap_or_else(|error| panic!("{error}"));
-    scene.of_kind::<Triangle>().map(|(_, of)| scene.materials[of.material as usize].color).collect()
+    // As it looks in white ambient light.
+    let color =
+        |of: &Shaded| scene.materials[of.material as usize].brightest(DVec3::ZERO, DVec3::ONE).as_vec3();
+    scene.of_kind::<Triangle>().map(|(_, of)| color(of)).collect()
 }
 
 const RED: Vec3 = Vec3::X;

@@ -5,7 +5,7 @@ mod common;
 use anyhow::{Result, ensure};
 use common::{Gpu, circle_of_confusion, film, pixels, prove, settings_of};
 use glam::Vec3;
-use thinlens::scene::{self, Background, Box, Material, Scene, SceneRef};
+use thinlens::scene::{self, Background, Box, Emissive, Scene, SceneRef};
 use thinlens::settings::Settings;
 
 const SIZE: [u32; 2] = [160, 120];
@@ -197,11 +197,11 @@ fn only_box(number: usize) -> Scene {
     let mut scene = scene::load("suffern-boxes").expect("a built-in scene");
     scene.lights.clear();
     scene.ambient = Vec3::ZERO;
-    scene.background = Background { horizon: Vec3::ZERO, zenith: Vec3::ZERO };
+    scene.background = Background::BLACK;
     let lamp = scene.of_kind::<Box>().nth(number).expect("a box").1.material as usize;
     for (index, material) in scene.materials.iter_mut().enumerate() {
-        let emission = if index == lamp { Vec3::ONE } else { Vec3::ZERO };
-        *material = Material { emission, ..Material::default() };
+        let radiance = if index == lamp { Vec3::ONE } else { Vec3::ZERO };
+        *material = Emissive { radiance }.into();
     }
     scene
 }

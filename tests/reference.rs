@@ -6,9 +6,9 @@ use common::scenes::FIXED_POINTS;
 use common::{scene_of, settings_of};
 use glam::DVec3;
 use thinlens::reference::film::Film;
+use thinlens::reference::integrator::whitted::radiance;
 use thinlens::reference::intersect::intersect;
 use thinlens::reference::sampler::{concentric_disk, pcg4d, sample_values};
-use thinlens::reference::shading::radiance;
 use thinlens::reference::{Ray, Reference, tone};
 use thinlens::settings::Sampler;
 

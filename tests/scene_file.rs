@@ -1,8 +1,10 @@
 //! Scene files: what they mean, and where their errors point.
 
+use glam::Vec3;
 use thinlens::error::Error;
 use thinlens::scene::{
-    self, BUILTINS, Box, CameraModel, LightKind, Overlay, Plane, SceneRef, Sphere, Triangle, View,
+    self, BUILTINS, Box, CameraModel, Checker, LightKind, Matte, Overlay, Phong, Plane, SceneRef, Sphere,
+    Texture, Triangle, View,
 };
 use thinlens::settings::Settings;
 
@@ -68,13 +70,14 @@ fn a_file_means_what_it_says() {
     assert_eq!((scene.lens.diameter, scene.lens.focal_distance), (0.1, 5.0));
     assert!((scene.camera.vfov_radians - 60_f64.to_radians()).abs() < 1e-12);
     assert_eq!(scene.lights.len(), 1);
-    assert!(matches!(scene.lights[0].kind, LightKind::Point(at) if at.to_array() == [0.0, 5.0, 0.0]));
+    assert!(
+        matches!(scene.lights[0].kind, LightKind::Point(light) if light.position.to_array() == [0.0, 5.0, 0.0])
+    );
     let red = &scene.materials[scene.of_kind::<Sphere>().next().expect("a sphere").1.material as usize];
-    assert_eq!(red.color.to_array(), [1.0, 0.0, 0.0]);
+    assert_eq!(*red, Matte { color: Texture::constant(Vec3::X), ka: 0.5, kd: 0.5 }.into());
     let blue = &scene.materials[scene.of_kind::<Triangle>().next().expect("a triangle").1.material as usize];
-    assert_eq!((blue.ka, blue.kd, blue.ks, blue.exponent), (0.5, 0.5, 0.2, 10.0));
-    assert_eq!(blue.checker.expect("a checker").size, 2.0);
-    assert_eq!(blue.checker.expect("a checker").odd_color.to_array(), [1.0; 3]);
+    let color = Checker { even: Vec3::Z, odd: Vec3::ONE, size: 2.0 }.into();
+    assert_eq!(*blue, Phong { color, ka: 0.5, kd: 0.5, ks: 0.2, exponent: 10.0 }.into());
 }
 
 /// Catches a view that is read and forgotten, and a preset that does not give the lens and the field of view, or that

@@ -9,10 +9,11 @@ use common::scenes::{EVERYTHING, ROOM, one_behind_the_other};
 use common::{Gpu, plain_scene_of, prove, scene_of};
 use glam::{DVec2, DVec3, Vec3};
 use thinlens::gpu_types::SceneData;
+use thinlens::interface::{light, material, shape, texture};
+use thinlens::reference::integrator::whitted::radiance;
 use thinlens::reference::intersect::intersect;
 use thinlens::reference::sampler;
-use thinlens::reference::shading::radiance;
-use thinlens::scene::{Box, SceneRef, Shaded, Sphere, Triangle};
+use thinlens::scene::{Background, Box, SceneRef, Shaded, Sphere, Triangle};
 use thinlens::settings::Sampler;
 
 /// Values in [-1, 1), four for each index.
@@ -140,6 +141,22 @@ fn everything_and_smooth_triangles() -> SceneRef {
         scene.shapes.push(Shaded::still(Triangle { vertices, normals: Some(normals) }, material));
     }
     SceneRef::new(scene)
+}
+
+/// Catches a kind that the tests below do not ask the device about.
+#[test]
+fn every_kind_is_asked_about() {
+    let scenes = shapes().into_iter().map(|(_, scene)| scene).chain([scene_of(EVERYTHING)]);
+    let mut there = [0; 4];
+    for scene in scenes {
+        let data = SceneData::new(&scene, 1.0);
+        // There is one background, which is in no list.
+        let lights = data.light_kinds | u32::from(scene.background != Background::BLACK) << light::BACKGROUND;
+        let kinds = [data.shape_kinds, data.material_kinds, data.texture_kinds, lights];
+        there = [0, 1, 2, 3].map(|of| there[of] | kinds[of]);
+    }
+    let names = [shape::NAMES, material::NAMES, texture::NAMES, light::NAMES];
+    assert_eq!(there, names.map(|names| (1 << names.len()) - 1));
 }
 
 /// Whether two places on a shape are the same: what goes around it is from 0 to 1, and begins where it ends.

@@ -1,75 +1,31 @@
-// Materials, lights, and the radiance along a ray: Suffern, chapters 14 to 16 and 24.
+// The radiance along a ray after T. Whitted: the light of lamps, with hard shadows, ambient light, and mirrors. Suffern,
+// chapters 14 to 16 and 24.
 
-#ifndef SHADING_GLSL
-#define SHADING_GLSL
+#ifndef WHITTED_GLSL
+#define WHITTED_GLSL
 
-#include "scene/intersect.glsl"
+#include "light/light.glsl"
+#include "material/material.glsl"
 
-const float INVERSE_PI = 0.318309886;
-
-// Suffern's 3D checker: the first colour where the cells' coordinates sum to an even number. A face that lies on
-// the boundary of two layers of cells belongs to the lower one: the position is taken so much lower as it may
-// be off, and as the phase, of up to two cells, is rounded.
-vec3 surface_color(Material material, vec3 position, float error) {
-    if (material.inverse_checker_size == 0.0) {
-        return material.color;
-    }
-    position -= error + 2.0 * ROUNDING / material.inverse_checker_size;
-    if (SCENE_IS_SHIFTED == 1u) {
-        position += material.checker_phase;
-    }
-    ivec3 cell = ivec3(floor(position * material.inverse_checker_size));
-    bool odd = ((cell.x + cell.y + cell.z) & 1) != 0;
-    return odd ? material.odd_color : material.color;
-}
-
-vec3 background(vec3 direction) {
-    float height = clamp(direction.y, 0.0, 1.0);
-    // Not mix(): of two equal colours this makes exactly that colour.
-    Environment sky = get_environment();
-    return sky.horizon + (sky.zenith - sky.horizon) * (height * (2.0 - height));
-}
-
-// A point of a surface. Both normals are of unit length, and on the side that the ray comes from.
-struct SurfacePoint {
-    vec3 position;
-    vec3 normal;
-    vec3 shading_normal;
-    float error; // how far off the surface the position may be
-    vec3 lifted; // the position, moved off the surface by this much
-    vec3 on_shape; // the position where the shape was in the middle of the exposure
-};
-
-// What a light adds at a point towards -ray.direction.
-vec3 reflected_light(Material material, vec3 color, Light light, bool casts_shadows, Ray ray, SurfacePoint at, inout uint rays, inout bool given_up) {
-    vec3 to_light = light.position_or_direction;
-    float limit = MISS;
-    if (light.is_directional == 0u) {
-        to_light -= at.position;
-        limit = length(to_light);
-        to_light /= limit;
-    }
-    float cosine = dot(at.shading_normal, to_light);
-    if (cosine <= 0.0 || dot(at.normal, to_light) <= 0.0) {
+// What a light adds at a point.
+vec3 reflected_light(Material material, vec3 color, Light light, bool casts_shadows, SurfacePoint at, vec3 to_viewer, inout uint rays, inout bool given_up) {
+    LightSample arriving = light_sample(light, at.position);
+    float cosine = dot(at.shading_normal, arriving.direction);
+    if (cosine <= 0.0 || dot(at.normal, arriving.direction) <= 0.0) {
         return vec3(0.0);
     }
     if (casts_shadows) {
         ++rays;
-        if (occluded(Ray(at.lifted, to_light), limit, given_up)) {
+        if (occluded(Ray(at.lifted, arriving.direction), arriving.distance, given_up)) {
             return vec3(0.0);
         }
     }
-    vec3 reflected = 2.0 * cosine * at.shading_normal - to_light;
-    float highlight = larger(dot(reflected, -ray.direction), 0.0);
-    // pow(0, 0) is undefined.
-    float gloss = highlight > 0.0 ? material.ks * pow(highlight, material.exponent) : 0.0;
-    return (material.kd * INVERSE_PI * color + gloss) * light.radiance * cosine;
+    return material_f(material, color, at, arriving.direction, to_viewer) * arriving.radiance * cosine;
 }
 
-// Emission, ambient, and direct light with hard shadows, towards -ray.direction.
-vec3 shade(Material material, Ray ray, SurfacePoint at, inout uint rays, inout bool given_up) {
-    vec3 color = surface_color(material, at.on_shape, at.error);
-    vec3 sum = material.emission + material.ka * color * get_environment().ambient;
+// Emission, ambient, and direct light with hard shadows.
+vec3 shade(Material material, vec3 color, SurfacePoint at, vec3 to_viewer, inout uint rays, inout bool given_up) {
+    vec3 sum = material_emission(material, color) + material_ambient(material, color) * get_environment().ambient;
     if (material.kd == 0.0 && material.ks == 0.0) {
         return sum;
     }
@@ -79,11 +35,11 @@ vec3 shade(Material material, Ray ray, SurfacePoint at, inout uint rays, inout b
     if (lights > 0u) {
         uint i = 0u;
         do {
-            sum += reflected_light(material, color, get_light(i), true, ray, at, rays, given_up);
+            sum += reflected_light(material, color, get_light(i), true, at, to_viewer, rays, given_up);
         } while (++i < lights);
     }
     for (uint i = SHADOW_LIGHT_COUNT; i < LIGHT_COUNT; ++i) {
-        sum += reflected_light(material, color, get_light(i), false, ray, at, rays, given_up);
+        sum += reflected_light(material, color, get_light(i), false, at, to_viewer, rays, given_up);
     }
     return sum;
 }
@@ -103,29 +59,17 @@ vec3 radiance(Ray ray, uint max_bounces, inout uint rays, out bool given_up) {
             sum += throughput * background(ray.direction);
             break;
         }
-        SurfacePoint at;
-        at.position = ray.origin + hit.distance * ray.direction;
-        at.normal = settle(hit.surface, at.position, at.error);
-        at.on_shape = at.position;
-        if (SCENE_MOVES == 1u) {
-            at.on_shape -= hit.displacement;
-        }
-        at.shading_normal = hit.surface.shading_normal == vec3(0.0) ? at.normal : hit.surface.shading_normal;
-        bool from_behind = dot(at.normal, ray.direction) > 0.0;
-        at.normal = from_behind ? -at.normal : at.normal;
-        at.shading_normal = from_behind ? -at.shading_normal : at.shading_normal;
-        at.lifted = at.position + at.error * at.normal;
-
+        SurfacePoint at = surface_point(ray, hit);
+        turn_sides(at, ray.direction);
         Material material = get_material(hit.material);
-        sum += throughput * shade(material, ray, at, rays, given_up);
-        throughput *= material.reflectance;
+        vec3 color = texture_value(material.color, at);
+        sum += throughput * shade(material, color, at, -ray.direction, rays, given_up);
+        Scatter scatter = material_sample(material, color, at, ray.direction);
+        throughput *= scatter.weight;
         if (throughput == vec3(0.0)) {
             break;
         }
-        vec3 mirrored = reflect(ray.direction, at.shading_normal);
-        // What would enter the surface is mirrored out of it again.
-        mirrored -= 2.0 * smaller(dot(mirrored, at.normal), 0.0) * at.normal;
-        ray = Ray(at.lifted, mirrored);
+        ray = Ray(at.lifted, scatter.direction);
     } while (++bounce <= max_bounces);
     return sum;
 }

@@ -42,9 +42,9 @@ TreeNode to_node(uvec4 record[3]) {
 float tree_shape_distance(Ray ray, vec3 inverse_direction, ShapeRecord shape) {
     float distance = MISS;
 #define TREE_DISTANCE(KIND, kind_) \
-    if (has_shape(SHAPE_##KIND)) { \
+    if (has_kind(SHAPE_KINDS, SHAPE_##KIND)) { \
         float at = kind_##_distance(ray, inverse_direction, shape); \
-        distance = is_of_kind(shape, SHAPE_##KIND, BOUNDED_KINDS) ? at : distance; \
+        distance = is_of_kind(SHAPE_KINDS & BOUNDED_KINDS, shape.kind, SHAPE_##KIND) ? at : distance; \
     }
     FOR_EACH_BOUNDED_KIND(TREE_DISTANCE)
     return distance;

@@ -19,25 +19,13 @@ struct Hit {
     vec3 displacement; // of the shape from where it is in the middle of the exposure
 };
 
-// Whether there are shapes of this kind.
-bool has_shape(uint kind) {
-    return (SHAPE_KINDS >> kind & 1u) != 0u;
-}
-
-// Whether a shape is of this kind, if it is one of kinds, a bit each. Where only one of them is in the scene, that is
-// known.
-bool is_of_kind(ShapeRecord shape, uint kind, uint kinds) {
-    uint there = SHAPE_KINDS & kinds; // the reflection library cannot compare constants
-    return there == 1u << kind || shape.kind == kind;
-}
-
 // Moves a bounded shape. What is no shape at all is left as it is.
 void move_shape(inout ShapeRecord shape, vec3 displacement) {
 #define MOVE(KIND, kind_) \
-    if (has_shape(SHAPE_##KIND)) { \
+    if (has_kind(SHAPE_KINDS, SHAPE_##KIND)) { \
         ShapeRecord moved = shape; \
         move_##kind_(moved, displacement); \
-        if (is_of_kind(shape, SHAPE_##KIND, BOUNDED_KINDS)) { \
+        if (is_of_kind(SHAPE_KINDS & BOUNDED_KINDS, shape.kind, SHAPE_##KIND)) { \
             shape = moved; \
         } \
     }
@@ -63,9 +51,9 @@ Hit hit_by_fetching(Ray ray, vec3 inverse_direction, Nearest nearest, vec3 posit
     ShapeRecord shape = shape_now(fetch_shape(nearest.record), displacement);
     Surface surface = NO_SURFACE;
 #define FETCHED_SURFACE(KIND, kind_) \
-    if (has_shape(SHAPE_##KIND)) { \
+    if (has_kind(SHAPE_KINDS, SHAPE_##KIND)) { \
         Surface other = kind_##_surface(ray, inverse_direction, shape, position); \
-        if (is_of_kind(shape, SHAPE_##KIND, ALL_KINDS)) { \
+        if (is_of_kind(SHAPE_KINDS, shape.kind, SHAPE_##KIND)) { \
             surface = other; \
         } \
     }

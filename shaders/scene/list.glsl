@@ -52,7 +52,7 @@ Hit hit_in_list(Ray ray, vec3 inverse_direction, Nearest nearest, vec3 position)
         hit = Hit(nearest.distance, shape.material, surface, displacement); \
     }
 #define HIT_BOUNDED(KIND, kind_) \
-    if (has_shape(SHAPE_##KIND)) { \
+    if (has_kind(SHAPE_KINDS, SHAPE_##KIND)) { \
         ShapeRecord shape; \
         LOOK_UP(shape, kept_shapes, KIND) \
         vec3 displacement = vec3(0.0); \
@@ -64,7 +64,7 @@ Hit hit_in_list(Ray ray, vec3 inverse_direction, Nearest nearest, vec3 position)
         KEEP_HIT(KIND, kind_) \
     }
 #define HIT_UNBOUNDED(KIND, kind_) \
-    if (has_shape(SHAPE_##KIND)) { \
+    if (has_kind(SHAPE_KINDS, SHAPE_##KIND)) { \
         ShapeRecord shape; \
         LOOK_UP(shape, kept_shapes, KIND) \
         vec3 displacement = vec3(0.0); \

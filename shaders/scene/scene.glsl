@@ -3,33 +3,19 @@
 #ifndef SCENE_GLSL
 #define SCENE_GLSL
 
+#include "light/record.glsl"
+#include "material/record.glsl"
 #include "shape/kinds.glsl"
 
-struct Material {
-    vec3 color;
-    float ka;
-    vec3 odd_color; // the checker's second colour
-    float kd;
-    vec3 reflectance; // kr * colour of the mirror
-    float ks;
-    vec3 emission;
-    float exponent;
-    vec3 checker_phase; // where the scene's own origin lies in the checker, as seen from the device's
-    float inverse_checker_size; // 0: one colour
-};
+// Whether there are things of this kind, if kinds has a bit for each that there is.
+bool has_kind(uint kinds, uint kind) {
+    return (kinds >> kind & 1u) != 0u;
+}
 
-struct Light {
-    vec3 radiance;
-    uint is_directional;
-    vec3 position_or_direction; // a direction points from the surface to the light
-};
-
-struct Environment {
-    vec3 horizon;
-    vec3 zenith;
-    vec3 ambient; // radiance
-    float reach; // every shape but planes lies within this distance of the origin, at any time
-};
+// Whether a thing is of this kind. Where there is only one kind, that is known.
+bool is_of_kind(uint kinds, uint kind_of_thing, uint kind) {
+    return has_kind(kinds, kind) && (kinds == 1u << kind || kind_of_thing == kind);
+}
 
 // The numbers of things are specialization constants, so that loops over them can unroll. Of shapes there are the
 // ends of the ranges of each kind: see build.rs.

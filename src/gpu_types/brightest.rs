@@ -2,7 +2,7 @@
 //! it yet. See `shaders/core/adaptive.glsl`.
 
 use super::Camera;
-use crate::scene::{Frame, Material, Plane, Scene};
+use crate::scene::{Frame, Plane, Scene};
 use crate::settings::Estimator;
 use glam::{DVec2, DVec3, Vec3};
 
@@ -91,30 +91,20 @@ fn sky(scene: &Scene) -> DVec3 {
 /// How bright each material can look: by itself, or by what is brightest in its mirror image.
 fn luminances(scene: &Scene, max_bounces: u32) -> Vec<f32> {
     let light: DVec3 = scene.lights.iter().map(|light| light.radiance.as_dvec3()).sum();
-    let own: Vec<DVec3> = scene
-        .materials
-        .iter()
-        .map(|material| unmirrored(material, light, scene.ambient.as_dvec3()))
-        .collect();
+    let own: Vec<DVec3> =
+        scene.materials.iter().map(|material| material.brightest(light, scene.ambient.as_dvec3())).collect();
     let mut seen = own.clone();
-    let mirrors = scene.materials.iter().any(|material| material.reflectance != Vec3::ZERO);
+    let mirrors = scene.materials.iter().any(|material| material.reflectance() != Vec3::ZERO);
     for _ in 0..if mirrors { max_bounces } else { 0 } {
         let most = seen.iter().copied().fold(sky(scene), DVec3::max);
         for ((seen, own), material) in seen.iter_mut().zip(&own).zip(&scene.materials) {
             // Not zero times infinity, which is what mirrors that amplify come to.
-            let mirrored = material.reflectance.as_dvec3() * most;
-            *seen = own.max(DVec3::select(material.reflectance.cmpeq(Vec3::ZERO), DVec3::ZERO, mirrored));
+            let reflectance = material.reflectance();
+            let mirrored = reflectance.as_dvec3() * most;
+            *seen = own.max(DVec3::select(reflectance.cmpeq(Vec3::ZERO), DVec3::ZERO, mirrored));
         }
     }
     seen.into_iter().map(|color| luminance(color) as f32).collect()
-}
-
-/// Without its mirror image: as seen where all lights meet it head-on, and where its highlight is.
-fn unmirrored(material: &Material, light: DVec3, ambient: DVec3) -> DVec3 {
-    let odd = material.checker.as_ref().map_or(Vec3::ZERO, |checker| checker.odd_color);
-    let color = material.color.max(odd).as_dvec3();
-    let reflected = f64::from(material.kd) * std::f64::consts::FRAC_1_PI * color + f64::from(material.ks);
-    material.emission.as_dvec3() + f64::from(material.ka) * color * ambient + reflected * light
 }
 
 /// A rectangle of the picture, in pixels from its top left corner.

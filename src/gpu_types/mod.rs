@@ -5,11 +5,15 @@
 mod aperture;
 mod brightest;
 mod float;
+mod light;
+mod material;
 mod scene;
 mod shape;
 
 pub use aperture::{Aperture, ApertureBuffer, aperture_constant, aperture_sums};
 pub use brightest::Brightest;
+pub use light::{Environment, Light};
+pub use material::{Material, Texture};
 pub use scene::SceneData;
 pub use shape::ShapeRecord;
 
@@ -17,44 +21,6 @@ use crate::interface::{GROUP_SIZE, constant, sampler};
 use crate::scene::{CameraModel, Hole};
 use crate::settings::{Estimator, Sampler, Settings};
 use bytemuck::{Pod, Zeroable};
-
-/// `Material` of scene.glsl.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable)]
-pub struct Material {
-    pub color: [f32; 3],
-    pub ka: f32,
-    pub odd_color: [f32; 3],
-    pub kd: f32,
-    pub reflectance: [f32; 3],
-    pub ks: f32,
-    pub emission: [f32; 3],
-    pub exponent: f32,
-    pub checker_phase: [f32; 3],
-    pub inverse_checker_size: f32,
-}
-
-/// `Light` of scene.glsl.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable)]
-pub struct Light {
-    pub radiance: [f32; 3],
-    pub is_directional: u32,
-    pub position_or_direction: [f32; 3],
-    pub pad0: u32,
-}
-
-/// `Environment` of scene.glsl.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable)]
-pub struct Environment {
-    pub horizon: [f32; 3],
-    pub pad0: u32,
-    pub zenith: [f32; 3],
-    pub pad1: u32,
-    pub ambient: [f32; 3],
-    pub reach: f32,
-}
 
 /// The three texels of a node in bvh.glsl. The last byte of `about` is the number of children, where a
 /// [`ShapeRecord`]'s index of a material has zero. `first` stands where that has no float.

@@ -1,11 +1,10 @@
 //! A scene as the shaders want it.
 
-use super::float::{float, floats};
+use super::float::floats;
 use super::shape::on_device;
 use super::{Environment, Light, Material, ShapeRecord, TreeNode};
 use crate::interface::shape;
-use crate::scene::{self, Bvh, LightKind, Node, Record, SceneRef, Shaded, Shape, Triangle};
-use bytemuck::Zeroable;
+use crate::scene::{Bvh, Node, Record, SceneRef, Shaded, Shape, Triangle};
 use glam::{DVec3, Vec3};
 
 /// More bounded shapes than these go into a tree: with fewer, trying each is faster.
@@ -22,7 +21,7 @@ pub struct SceneData {
     /// The ends of the kinds in the list, from its first shape on.
     pub list_ends: [u32; shape::NAMES.len()],
     /// A bit for each kind of shape in the list or in the tree.
-    pub kinds: u32,
+    pub shape_kinds: u32,
     /// Three corner normals per shape of the tree. Empty if no triangle has normals.
     pub normals: Vec<[[f32; 4]; 3]>,
     /// Velocity of every shape in scene units a second, of those of the tree first. Empty if nothing moves.
@@ -30,10 +29,18 @@ pub struct SceneData {
     /// Nodes on the longest way from the tree's root to a leaf; 0 where there is no tree.
     pub tree_depth: u32,
     pub materials: Vec<Material>,
+    /// A bit for each kind of material.
+    pub material_kinds: u32,
+    /// A bit for each kind of texture that a material has.
+    pub texture_kinds: u32,
     /// Those that cast shadows come first.
     pub lights: Vec<Light>,
+    /// A bit for each kind of them.
+    pub light_kinds: u32,
     pub shadow_lights: usize,
     pub environment: Environment,
+    /// Whether any material mirrors.
+    pub reflects: bool,
     /// Whether any shape moves.
     pub moves: bool,
     /// Whether the origin of these coordinates is not the scene's own.
@@ -80,29 +87,27 @@ impl SceneData {
         }
         let shadowing = || scene.lights.iter().filter(|light| light.shadows);
         let moves = scene.moves();
+        let lights = shadowing().chain(scene.lights.iter().filter(|light| !light.shadows));
+        let lights: Vec<_> = lights.map(|of| Light::new(of, origin)).collect();
+        let materials: Vec<_> = scene.materials.iter().map(|of| Material::new(of, origin)).collect();
         Self {
             records,
             list_begin: count(nodes.len()),
             list_ends,
-            kinds: shapes.iter().fold(0, |kinds, shape| kinds | 1 << shape.kind),
+            shape_kinds: bits(shapes.iter().map(|shape| shape.kind)),
             normals: corner_normals(in_tree),
             velocities: all().filter(|_| moves).map(|of| with_zero(floats(of.velocity))).collect(),
             tree_depth,
+            reflects: scene.materials.iter().any(|of| of.reflectance() != Vec3::ZERO),
             moves,
             shifted: origin != DVec3::ZERO,
-            materials: scene.materials.iter().map(|of| material(of, origin)).collect(),
-            lights: shadowing()
-                .chain(scene.lights.iter().filter(|light| !light.shadows))
-                .map(|of| light(of, origin))
-                .collect(),
+            material_kinds: bits(materials.iter().map(|material| material.kind)),
+            texture_kinds: bits(materials.iter().map(|material| material.color.kind)),
+            materials,
+            light_kinds: bits(lights.iter().map(|light| light.kind)),
+            lights,
             shadow_lights: shadowing().count(),
-            environment: Environment {
-                horizon: floats(scene.background.horizon),
-                zenith: floats(scene.background.zenith),
-                ambient: floats(scene.ambient),
-                reach,
-                ..Zeroable::zeroed()
-            },
+            environment: Environment::new(scene, reach),
         }
     }
 }
@@ -127,6 +132,11 @@ fn reach(shapes: &[Shaded], shutter: f32) -> f32 {
     (1.000_01 * shapes.iter().map(moved).fold(0.0, f64::max)) as f32
 }
 
+/// A bit for each of these kinds.
+fn bits(kinds: impl Iterator<Item = u32>) -> u32 {
+    kinds.fold(0, |bits, kind| bits | 1 << kind)
+}
+
 fn with_zero([x, y, z]: [f32; 3]) -> [f32; 4] {
     [x, y, z, 0.0]
 }
@@ -143,39 +153,5 @@ fn tree_node(node: &Node) -> TreeNode {
         planes_z,
         pad0: 0,
         first: node.first,
-    }
-}
-
-fn material(material: &scene::Material, origin: DVec3) -> Material {
-    let checker = material.checker.as_ref();
-    // The checker is the same again two cells farther along each axis.
-    let phase = |checker: &scene::Checker| {
-        let period = 2.0 * checker.size;
-        floats(origin.map(|coordinate| coordinate.rem_euclid(period)).as_vec3())
-    };
-    Material {
-        color: floats(material.color),
-        ka: float(material.ka),
-        odd_color: floats(checker.map_or(Vec3::ZERO, |checker| checker.odd_color)),
-        kd: float(material.kd),
-        reflectance: floats(material.reflectance),
-        ks: float(material.ks),
-        emission: floats(material.emission),
-        exponent: float(material.exponent),
-        checker_phase: checker.map_or([0.0; 3], phase),
-        inverse_checker_size: checker.map_or(0.0, |checker| checker.size.recip() as f32),
-    }
-}
-
-fn light(light: &scene::Light, origin: DVec3) -> Light {
-    let (position_or_direction, is_directional) = match light.kind {
-        LightKind::Point(position) => ((position - origin).as_vec3(), 0),
-        LightKind::Directional(direction) => (direction.as_dvec3().normalize().as_vec3(), 1),
-    };
-    Light {
-        radiance: floats(light.radiance),
-        is_directional,
-        position_or_direction: floats(position_or_direction),
-        pad0: 0,
     }
 }

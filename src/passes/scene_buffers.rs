@@ -64,13 +64,15 @@ impl SceneBuffers {
             (constant::SCENE_IS_SHIFTED, scene.shifted.into()),
             (constant::TREE_DEPTH, scene.tree_depth),
             (constant::LIST_BEGIN, scene.list_begin),
-            (constant::SHAPE_KINDS, scene.kinds),
+            (constant::SHAPE_KINDS, scene.shape_kinds),
+            (constant::MATERIAL_KINDS, scene.material_kinds),
+            (constant::TEXTURE_KINDS, scene.texture_kinds),
+            (constant::LIGHT_KINDS, scene.light_kinds),
             (constant::HAS_CORNER_NORMALS, (!scene.normals.is_empty()).into()),
             (constant::MOST_TREE_STEPS, steps),
         ];
         constants.extend((constant::SHAPE_END..).zip(scene.list_ends));
-        let reflects = scene.materials.iter().any(|material| material.reflectance != [0.0; 3]);
-        Ok(Self { bindings, constants, reflects })
+        Ok(Self { bindings, constants, reflects: scene.reflects })
     }
 
     fn constant(&self, id: u32) -> u32 {

@@ -8,10 +8,14 @@
 pub mod aperture;
 mod camera;
 pub mod film;
+pub mod integrator;
 pub mod intersect;
+mod light;
+mod material;
 pub mod sampler;
-pub mod shading;
 pub mod shape;
+mod surface;
+mod texture;
 pub mod tone;
 
 use crate::settings::Estimator;
@@ -77,7 +81,7 @@ impl<'a> Reference<'a> {
     pub fn trace(&self, pixel: [u32; 2], offset: [f64; 2], disk: [f64; 2], time: f64) -> Sample {
         let ray = self.projection.primary_ray(pixel, offset, disk, time);
         let scene = &*self.estimator.scene;
-        let radiance = shading::radiance(scene, ray, self.estimator.max_bounces);
+        let radiance = integrator::whitted::radiance(scene, ray, self.estimator.max_bounces);
         Sample { ray, offset, radiance }
     }
 

@@ -2,7 +2,7 @@
 
 use super::crease::crease_normals;
 use super::obj::{self, Face, Foreign, Library, Obj, ObjError, Paint};
-use super::{MAX_LENGTH, Material, Scene, Shaded, Triangle};
+use super::{MAX_LENGTH, Material, Matte, Phong, Scene, Shaded, Texture, Triangle};
 use crate::error::{Error, Result};
 use crate::input_file;
 use glam::{DQuat, DVec3, Vec3};
@@ -10,16 +10,13 @@ use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 
 /// The material of a mesh that has no other: clay, with a faint gloss.
-const CLAY: Material = Material {
-    color: Vec3::new(0.75, 0.36, 0.2),
-    checker: None,
+const CLAY: Material = Material::Phong(Phong {
+    color: Texture::constant(Vec3::new(0.75, 0.36, 0.2)),
     ka: 1.0,
     kd: 1.0,
     ks: 0.12,
     exponent: 24.0,
-    reflectance: Vec3::ZERO,
-    emission: Vec3::ZERO,
-};
+});
 
 /// A mesh in the coordinates of its file.
 pub(super) struct Mesh {
@@ -170,7 +167,7 @@ impl Mesh {
 
     /// Adds the materials that are needed to the scene. For each of the file's materials, gives its index in the scene.
     fn add_materials(&self, scene: &mut Scene, material: Option<u32>) -> impl Fn(Option<u32>) -> u32 + use<> {
-        let matte = |color| Material { color, ka: 1.0, kd: 1.0, ..Material::default() };
+        let matte = |color| Matte { color: Texture::constant(color), ka: 1.0, kd: 1.0 }.into();
         let default = material.unwrap_or_else(|| scene.add_material("clay", CLAY));
         let own: Vec<u32> = match material {
             Some(_) => Vec::new(),

@@ -18,6 +18,7 @@ mod preset;
 mod range;
 mod shape;
 mod stage;
+mod texture;
 mod toml;
 mod view;
 
@@ -26,13 +27,14 @@ pub use builtin::{BUILTINS, Builtin};
 pub use bvh::{Bvh, Node, Record};
 pub use camera::{Camera, CameraModel, Frame, Hole, Lens};
 pub use file::{Loaded, load, load_with_text};
-pub use light::{Background, Light, LightKind};
-pub use material::{Checker, Material};
+pub use light::*;
+pub use material::*;
 pub use optics::{FRAME_HEIGHT_MM, vfov_of_focal_length};
 pub use overlay::{FullScale, OVERLAYS, Overlay, Source};
 pub use preset::{PRESETS, Preset};
 pub use range::*;
 pub use shape::*;
+pub use texture::*;
 pub use view::View;
 
 use glam::{DVec3, Vec3};

@@ -2,8 +2,8 @@
 
 use super::mesh::{Mesh, Placement};
 use super::{
-    Aperture, Background, Camera, CameraModel, Checker, DEFAULT_SHUTTER, Hole, Lens, Light, LightKind,
-    Material, Plane, Scene, Shaded, Triangle, View,
+    Aperture, Background, Camera, CameraModel, Checker, DEFAULT_SHUTTER, DirectionalLight, Hole, Lens, Light,
+    LightKind, Material, Matte, Plane, Scene, Shaded, Triangle, View,
 };
 use crate::error::Result;
 use glam::{DVec3, Vec3};
@@ -14,19 +14,17 @@ const MAX_BOUNCES: u32 = 5;
 const HORIZON: Vec3 = Vec3::new(0.92, 0.9, 0.87);
 const ZENITH: Vec3 = Vec3::new(0.24, 0.44, 0.78);
 const AMBIENT: Vec3 = Vec3::new(0.24, 0.27, 0.32);
-/// A warm key light from the left, with shadows, and a cool fill light from the right, without.
-const LIGHTS: [Light; 2] = [
-    Light {
-        kind: LightKind::Directional(Vec3::new(-0.5, 1.0, 0.65)),
-        radiance: Vec3::new(2.5, 2.35, 2.1),
-        shadows: true,
-    },
-    Light {
-        kind: LightKind::Directional(Vec3::new(1.0, 0.35, 0.3)),
-        radiance: Vec3::new(0.4, 0.46, 0.55),
-        shadows: false,
-    },
+/// A warm key light from the left, with shadows, and a cool fill light from the right, without: the direction of each, its
+/// radiance, and whether it casts shadows.
+const LIGHTS: [(DirectionalLight, Vec3, bool); 2] = [
+    (DirectionalLight { direction: Vec3::new(-0.5, 1.0, 0.65) }, Vec3::new(2.5, 2.35, 2.1), true),
+    (DirectionalLight { direction: Vec3::new(1.0, 0.35, 0.3) }, Vec3::new(0.4, 0.46, 0.55), false),
 ];
+const EVEN_SQUARES: Vec3 = Vec3::new(0.62, 0.6, 0.56);
+const ODD_SQUARES: Vec3 = Vec3::new(0.36, 0.37, 0.39);
+/// Of the ground: ambient and diffuse reflection.
+const GROUND_KA: f32 = 1.0;
+const GROUND_KD: f32 = 1.0;
 const SIZE: [u32; 2] = [1280, 720];
 const VFOV_DEGREES: f64 = 34.0;
 /// The direction from the mesh to the eye: a three-quarter view from a little above, which shows the horizon.
@@ -77,6 +75,11 @@ impl Ground {
         let foot = DVec3::new(lower.x + 0.5 * extent.x, lower.y, lower.z + 0.5 * extent.z);
         Ok(Self { square, height, position: DVec3::Y * (height + GAP * diagonal) - foot })
     }
+
+    fn material(&self) -> Material {
+        let checker = Checker { even: EVEN_SQUARES, odd: ODD_SQUARES, size: self.square };
+        Matte { color: checker.into(), ka: GROUND_KA, kd: GROUND_KD }.into()
+    }
 }
 
 /// The scene, and the text of a scene file of it. Its lengths are those of the mesh's file; the mesh is moved onto the ground.
@@ -103,8 +106,8 @@ pub(super) fn around(mesh: &Mesh, name: &str) -> Result<(Scene, String)> {
         max_bounces: MAX_BOUNCES,
         background: Background { horizon: HORIZON, zenith: ZENITH },
         ambient: AMBIENT,
-        lights: LIGHTS.to_vec(),
-        materials: vec![floor(ground.square)],
+        lights: LIGHTS.map(light).to_vec(),
+        materials: vec![ground.material()],
         material_names: vec!["ground".into()],
         shapes: vec![Shaded::still(Plane { point: DVec3::Y * ground.height, normal: Vec3::Y }, 0)],
     };
@@ -122,7 +125,7 @@ pub(super) fn around(mesh: &Mesh, name: &str) -> Result<(Scene, String)> {
 fn scene_file(scene: &Scene, ground: &Ground) -> String {
     let numbers = |vector: Vec3| format!("[{}, {}, {}]", vector.x, vector.y, vector.z);
     let place = |point: DVec3| format!("[{}, {}, {}]", point.x, point.y, point.z);
-    let (camera, floor) = (&scene.camera, &scene.materials[0]);
+    let camera = &scene.camera;
     let mut text = format!(
         "size = [{}, {}]\nmax_bounces = {}\n\n[camera]\neye = {}\nlook_at = {}\nvfov_degrees = {:?}\n\
          metres_per_unit = {:?}\nlens_diameter = {:?}\nfocal_distance = {:?}\n\n\
@@ -140,24 +143,22 @@ fn scene_file(scene: &Scene, ground: &Ground) -> String {
         numbers(scene.background.zenith),
         numbers(scene.ambient),
     );
-    for light in &scene.lights {
-        let LightKind::Directional(direction) = light.kind else { continue };
+    for (DirectionalLight { direction }, radiance, shadows) in LIGHTS {
         text += &format!(
             "\n[[directional]]\ndirection = {}\ncolor = {}\nradiance = 1\nshadows = {}\n",
             numbers(direction),
-            numbers(light.radiance),
-            light.shadows
+            numbers(radiance),
+            shadows
         );
     }
-    let odd = floor.checker.map_or(floor.color, |checker| checker.odd_color);
     text += &format!(
         "\n[matte.ground]\nka = {}\nkd = {}\ncolor = {{ even = {}, odd = {}, size = {:?} }}\n\
          \n[[plane]]\npoint = [0, {:?}, 0]\nnormal = [0, 1, 0]\nmaterial = \"ground\"\n\
          \n[[mesh]]\nfile = {}\nposition = {}\n",
-        floor.ka,
-        floor.kd,
-        numbers(floor.color),
-        numbers(odd),
+        GROUND_KA,
+        GROUND_KD,
+        numbers(EVEN_SQUARES),
+        numbers(ODD_SQUARES),
         ground.square,
         ground.height,
         toml_edit::value(&scene.name),
@@ -206,12 +207,6 @@ fn lens_for(scene: &Scene) -> Lens {
     Lens { diameter: (ratio * near) as f32, focal_distance: near as f32 }
 }
 
-fn floor(square: f64) -> Material {
-    Material {
-        color: Vec3::new(0.62, 0.6, 0.56),
-        checker: Some(Checker { size: square, odd_color: Vec3::new(0.36, 0.37, 0.39) }),
-        ka: 1.0,
-        kd: 1.0,
-        ..Material::default()
-    }
+fn light((light, radiance, shadows): (DirectionalLight, Vec3, bool)) -> Light {
+    Light { kind: LightKind::Directional(light), radiance, shadows }
 }

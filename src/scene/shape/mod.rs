@@ -15,11 +15,13 @@ use toml::Spanned;
 macro_rules! shape_kinds {
     ($callback:ident) => {
         $callback! {
-            (Sphere, SphereTable, sphere),
-            (Box, BoxTable, r#box),
-            (Triangle, TriangleTable, triangle),
-            (Cylinder, CylinderTable, cylinder),
-            (Plane, PlaneTable, plane),
+            [
+                (Sphere, SphereTable, sphere),
+                (Box, BoxTable, r#box),
+                (Triangle, TriangleTable, triangle),
+                (Cylinder, CylinderTable, cylinder),
+                (Plane, PlaneTable, plane),
+            ]
         }
     };
 }
@@ -99,7 +101,7 @@ impl Corners {
 }
 
 macro_rules! define_shape {
-    ($(($kind:ident, $table:ident, $name:ident),)+) => {
+    ([$(($kind:ident, $table:ident, $name:ident),)+]) => {
         $(pub use $name::$kind;
         pub(super) use $name::$table;)+
 

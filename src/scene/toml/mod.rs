@@ -3,21 +3,23 @@
 
 mod camera;
 pub(super) mod fault;
-mod material;
+mod material_list;
 mod mesh;
 pub(super) mod number;
 pub(super) mod text;
 mod view;
 mod words;
 
+use super::light::{self, BackgroundTable, LightTable, background, light_kinds};
+use super::material::{self, material_kinds};
 use super::shape::{self, ShapeTable, shape_kinds};
-use super::{Background, Light, LightKind, Scene, Shaded, View};
+use super::{Light, Scene, Shaded, View};
 use camera::{CameraTable, Shot};
 use fault::{Fault, fault};
 use glam::Vec3;
-use material::{LightColor, MaterialList, MatteTable, MirrorTable, Named, PhongTable, white};
+use material_list::{MaterialList, Named};
 use mesh::MeshTable;
-use number::{Count, Extent, NonNegative, Rgb, Vector, nonzero};
+use number::{Count, Extent, LightColor};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
@@ -29,7 +31,11 @@ pub(super) fn read(text: &str) -> Result<SceneFile, Fault> {
 }
 
 macro_rules! define_scene_file {
-    ($(($kind:ident, $table:ident, $name:ident),)+) => {
+    (
+        [$(($shape:ident, $shape_table:ident, $shape_name:ident),)+],
+        [$(($light:ident, $light_values:ident, $light_table:ident, $light_name:ident),)+],
+        [$(($material:ident, $material_table:ident, $material_name:ident),)+]
+    ) => {
         #[derive(Deserialize)]
         #[serde(deny_unknown_fields)]
         pub(super) struct SceneFile {
@@ -45,67 +51,52 @@ macro_rules! define_scene_file {
             #[serde(default)]
             ambient: Option<LightColor>,
             #[serde(default)]
-            point: Vec<PointTable>,
-            #[serde(default)]
-            directional: Vec<DirectionalTable>,
-            #[serde(default)]
-            matte: Named<MatteTable>,
-            #[serde(default)]
-            phong: Named<PhongTable>,
-            #[serde(default)]
-            mirror: Named<MirrorTable>,
-            #[serde(default)]
-            emissive: Named<LightColor>,
-            #[serde(default)]
             mesh: Vec<MeshTable>,
             $(#[serde(default)]
-            $name: Vec<shape::$table>,)+
+            $light_name: Vec<light::$light_table>,)+
+            $(#[serde(default)]
+            $material_name: Named<material::$material_table>,)+
+            $(#[serde(default)]
+            $shape_name: Vec<shape::$shape_table>,)+
         }
 
         impl SceneFile {
             /// The shapes, kind by kind.
             fn shapes(&self, materials: &MaterialList) -> Result<Vec<Shaded>, Fault> {
                 let mut shapes = Vec::new();
-                $(for table in &self.$name {
+                $(for table in &self.$shape_name {
                     let (shape, material) = (table.shape()?, materials.find(table.material())?);
                     shapes.push(Shaded { shape, material, velocity: table.velocity() });
                 })+
                 Ok(shapes)
             }
+
+            /// The lights, kind by kind.
+            fn lights(&self) -> Result<Vec<Light>, Fault> {
+                let lights = std::iter::empty()$(.chain(self.$light_name.iter().map(LightTable::light)))+;
+                lights.collect()
+            }
+
+            /// The materials, kind by kind, which are taken out of the tables.
+            fn take_materials(&mut self) -> Result<MaterialList, Fault> {
+                let mut list = MaterialList::default();
+                $(list.add(std::mem::take(&mut self.$material_name))?;)+
+                Ok(list)
+            }
         }
     };
 }
-shape_kinds!(define_scene_file);
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct BackgroundTable {
-    color: Option<Rgb>,
-    horizon: Option<Rgb>,
-    zenith: Option<Rgb>,
+macro_rules! and_lights {
+    ($shapes:tt) => {
+        light_kinds!(and_materials, $shapes);
+    };
 }
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct PointTable {
-    position: Vector,
-    #[serde(default = "white")]
-    color: Rgb,
-    radiance: NonNegative,
-    #[serde(default = "yes")]
-    shadows: bool,
+macro_rules! and_materials {
+    ($shapes:tt, $lights:tt) => {
+        material_kinds!(define_scene_file, $shapes, $lights);
+    };
 }
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct DirectionalTable {
-    direction: Spanned<Vector>,
-    #[serde(default = "white")]
-    color: Rgb,
-    radiance: NonNegative,
-    #[serde(default = "yes")]
-    shadows: bool,
-}
+shape_kinds!(and_lights);
 
 fn default_size() -> [Extent; 2] {
     [Extent(1280), Extent(720)]
@@ -113,10 +104,6 @@ fn default_size() -> [Extent; 2] {
 
 fn default_max_bounces() -> Count {
     Count(5)
-}
-
-fn yes() -> bool {
-    true
 }
 
 impl SceneFile {
@@ -129,11 +116,7 @@ impl SceneFile {
         let background = background(self.background.as_ref())?;
         let ambient = self.ambient.as_ref().map_or(Vec3::ZERO, LightColor::radiance);
         let lights = self.lights()?;
-        let mut list = MaterialList::default();
-        list.add(std::mem::take(&mut self.matte))?;
-        list.add(std::mem::take(&mut self.phong))?;
-        list.add(std::mem::take(&mut self.mirror))?;
-        list.add(std::mem::take(&mut self.emissive))?;
+        let list = self.take_materials()?;
 
         let mut scene = Scene {
             name: name.to_owned(),
@@ -165,36 +148,5 @@ impl SceneFile {
                 .map_err(|error| fault(&table.file, &error.to_string()))?;
         }
         Ok(scene)
-    }
-
-    fn lights(&self) -> Result<Vec<Light>, Fault> {
-        let mut lights = Vec::new();
-        for table in &self.point {
-            lights.push(Light {
-                kind: LightKind::Point(table.position.0),
-                radiance: table.color.0 * table.radiance.0,
-                shadows: table.shadows,
-            });
-        }
-        for table in &self.directional {
-            lights.push(Light {
-                kind: LightKind::Directional(nonzero(&table.direction)?),
-                radiance: table.color.0 * table.radiance.0,
-                shadows: table.shadows,
-            });
-        }
-        Ok(lights)
-    }
-}
-
-fn background(table: Option<&Spanned<BackgroundTable>>) -> Result<Background, Fault> {
-    let Some(span) = table else {
-        return Ok(Background { horizon: Vec3::ZERO, zenith: Vec3::ZERO });
-    };
-    let table = span.get_ref();
-    match (&table.color, &table.horizon, &table.zenith) {
-        (Some(color), None, None) => Ok(Background { horizon: color.0, zenith: color.0 }),
-        (None, Some(horizon), Some(zenith)) => Ok(Background { horizon: horizon.0, zenith: zenith.0 }),
-        _ => Err(fault(span, "the background needs either color, or horizon and zenith")),
     }
 }

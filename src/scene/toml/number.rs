@@ -119,3 +119,28 @@ impl TryFrom<i64> for Count {
         Ok(Self(value as u32))
     }
 }
+
+/// What gives off light: `[ambient]` and `[emissive.NAME]`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene) struct LightColor {
+    #[serde(default = "white")]
+    color: Rgb,
+    radiance: NonNegative,
+}
+
+impl LightColor {
+    pub(in crate::scene) fn radiance(&self) -> Vec3 {
+        self.color.0 * self.radiance.0
+    }
+}
+
+/// Where a colour may be left out.
+pub(in crate::scene) fn white() -> Rgb {
+    Rgb(Vec3::ONE)
+}
+
+/// Where a light need not say that it casts shadows.
+pub(in crate::scene) fn yes() -> bool {
+    true
+}

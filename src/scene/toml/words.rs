@@ -2,6 +2,8 @@
 //! fill structs know of maps, sequences and fields only.
 
 use super::fault::Fault;
+use crate::scene::light::LIGHT_NAMES;
+use crate::scene::material::MATERIAL_NAMES;
 use crate::scene::shape::SHAPE_NAMES;
 use serde::Deserialize;
 use toml::Spanned;
@@ -20,26 +22,23 @@ enum Form {
     Value,
 }
 
-/// What can stand at the top of a file, besides shapes.
-const TOP: [(&str, Form); 13] = [
+/// What can stand at the top of a file, besides lights, materials and shapes.
+const TOP: [(&str, Form); 7] = [
     ("size", Form::Value),
     ("max_bounces", Form::Value),
     ("camera", Form::One),
     ("view", Form::One),
     ("background", Form::One),
     ("ambient", Form::One),
-    ("point", Form::Many),
-    ("directional", Form::Many),
     ("mesh", Form::Many),
-    ("matte", Form::Named),
-    ("phong", Form::Named),
-    ("mirror", Form::Named),
-    ("emissive", Form::Named),
 ];
 
 /// What can stand at the top of a file.
 fn top() -> impl Iterator<Item = (&'static str, Form)> {
-    TOP.into_iter().chain(SHAPE_NAMES.iter().map(|name| (name.trim_start_matches("r#"), Form::Many)))
+    let kinds = [(LIGHT_NAMES, Form::Many), (MATERIAL_NAMES, Form::Named), (SHAPE_NAMES, Form::Many)];
+    let named = |(names, form): (&'static [&'static str], Form)| names.iter().map(move |name| (*name, form));
+    let kinds = kinds.into_iter().flat_map(named);
+    TOP.into_iter().chain(kinds.map(|(name, form)| (name.trim_start_matches("r#"), form)))
 }
 
 /// Reads a text into what the format's structs say.

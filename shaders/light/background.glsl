@@ -1,0 +1,15 @@
+// The sky: a gradient from the horizon up.
+
+#ifndef BACKGROUND_GLSL
+#define BACKGROUND_GLSL
+
+#include "scene/scene.glsl"
+
+vec3 background_radiance(vec3 direction) {
+    float height = clamp(direction.y, 0.0, 1.0);
+    // Not mix(): of two equal colours this makes exactly that colour.
+    Environment sky = get_environment();
+    return sky.horizon + (sky.zenith - sky.horizon) * (height * (2.0 - height));
+}
+
+#endif

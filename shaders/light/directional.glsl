@@ -1,0 +1,12 @@
+// Light along parallel lines, from beyond everything.
+
+#ifndef DIRECTIONAL_GLSL
+#define DIRECTIONAL_GLSL
+
+#include "scene/scene.glsl"
+
+LightSample directional_sample(Light light, vec3 from) {
+    return LightSample(light.position_or_direction, MISS, light.radiance);
+}
+
+#endif

@@ -1,0 +1,27 @@
+// Where light comes from. A kind is a file beside this one: see record.glsl.
+
+#ifndef LIGHT_GLSL
+#define LIGHT_GLSL
+
+#include "light/kinds.glsl"
+
+// What arrives from a light at a point.
+LightSample light_sample(Light light, vec3 from) {
+    LightSample value = LightSample(vec3(0.0), 0.0, vec3(0.0));
+#define SAMPLE_LIGHT(KIND, kind_) \
+    if (is_of_kind(LIGHT_KINDS, light.kind, LIGHT_##KIND)) { \
+        value = kind_##_sample(light, from); \
+    }
+    FOR_EACH_LIGHT_SAMPLE(SAMPLE_LIGHT)
+    return value;
+}
+
+// What a ray sees that meets nothing.
+vec3 background(vec3 direction) {
+    vec3 sum = vec3(0.0);
+#define ADD_BACKGROUND(KIND, kind_) sum += kind_##_radiance(direction);
+    FOR_EACH_LIGHT_RADIANCE(ADD_BACKGROUND)
+    return sum;
+}
+
+#endif

@@ -1,0 +1,14 @@
+// Light from a point, which does not weaken with distance.
+
+#ifndef POINT_GLSL
+#define POINT_GLSL
+
+#include "scene/scene.glsl"
+
+LightSample point_sample(Light light, vec3 from) {
+    vec3 to_light = light.position_or_direction - from;
+    float distance = length(to_light);
+    return LightSample(to_light / distance, distance, light.radiance);
+}
+
+#endif

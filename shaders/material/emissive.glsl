@@ -1,0 +1,12 @@
+// Gives off light, its color.
+
+#ifndef EMISSIVE_GLSL
+#define EMISSIVE_GLSL
+
+#include "scene/surface.glsl"
+
+vec3 emissive_emission(Material material, vec3 color) {
+    return color;
+}
+
+#endif

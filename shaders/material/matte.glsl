@@ -1,0 +1,18 @@
+// Reflects light evenly into all directions.
+
+#ifndef MATTE_GLSL
+#define MATTE_GLSL
+
+#include "scene/surface.glsl"
+
+const float INVERSE_PI = 0.318309886;
+
+vec3 matte_ambient(Material material, vec3 color) {
+    return material.ka * color;
+}
+
+vec3 matte_f(Material material, vec3 color, SurfacePoint at, vec3 to_light, vec3 to_viewer) {
+    return material.kd * INVERSE_PI * color;
+}
+
+#endif

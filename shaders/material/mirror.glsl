@@ -1,0 +1,19 @@
+// Mirrors, by as much as its color is, and may show highlights of the lights.
+
+#ifndef MIRROR_GLSL
+#define MIRROR_GLSL
+
+#include "material/phong.glsl"
+
+vec3 mirror_f(Material material, vec3 color, SurfacePoint at, vec3 to_light, vec3 to_viewer) {
+    return vec3(phong_highlight(material, at, to_light, to_viewer));
+}
+
+Scatter mirror_sample(Material material, vec3 color, SurfacePoint at, vec3 direction) {
+    vec3 mirrored = reflect(direction, at.shading_normal);
+    // What would enter the surface is mirrored out of it again.
+    mirrored -= 2.0 * smaller(dot(mirrored, at.normal), 0.0) * at.normal;
+    return Scatter(mirrored, color);
+}
+
+#endif

@@ -1,0 +1,12 @@
+// One colour everywhere: color.
+
+#ifndef CONSTANT_GLSL
+#define CONSTANT_GLSL
+
+#include "scene/surface.glsl"
+
+vec3 constant_value(Texture of, SurfacePoint at) {
+    return of.color;
+}
+
+#endif

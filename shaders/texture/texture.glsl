@@ -1,0 +1,19 @@
+// Colours of surfaces. A kind of texture is a file beside this one: see record.glsl.
+
+#ifndef TEXTURE_GLSL
+#define TEXTURE_GLSL
+
+#include "texture/kinds.glsl"
+
+// The colour at a point of a surface.
+vec3 texture_value(Texture of, SurfacePoint at) {
+    vec3 value = vec3(0.0);
+#define VALUE(KIND, kind_) \
+    if (is_of_kind(TEXTURE_KINDS, of.kind, TEXTURE_##KIND)) { \
+        value = kind_##_value(of, at); \
+    }
+    FOR_EACH_TEXTURE_VALUE(VALUE)
+    return value;
+}
+
+#endif

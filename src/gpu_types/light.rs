@@ -1,0 +1,60 @@
+//! Lights as the shaders want them: one match arm a kind.
+
+use super::float::floats;
+use crate::interface::light;
+use crate::scene::{self, LightKind, Scene};
+use bytemuck::{Pod, Zeroable};
+use glam::DVec3;
+
+/// `Light` of light/record.glsl.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct Light {
+    pub radiance: [f32; 3],
+    pub kind: u32,
+    pub position_or_direction: [f32; 3],
+    pub pad0: u32,
+}
+
+/// `Environment` of light/record.glsl.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct Environment {
+    pub horizon: [f32; 3],
+    pub pad0: u32,
+    pub zenith: [f32; 3],
+    pub pad1: u32,
+    pub ambient: [f32; 3],
+    pub reach: f32,
+}
+
+impl Light {
+    /// In coordinates with this origin.
+    pub fn new(of: &scene::Light, origin: DVec3) -> Self {
+        let (kind, position_or_direction) = match of.kind {
+            LightKind::Point(point) => (light::POINT, (point.position - origin).as_vec3()),
+            LightKind::Directional(sun) => {
+                (light::DIRECTIONAL, sun.direction.as_dvec3().normalize().as_vec3())
+            }
+        };
+        Self {
+            radiance: floats(of.radiance),
+            kind,
+            position_or_direction: floats(position_or_direction),
+            pad0: 0,
+        }
+    }
+}
+
+impl Environment {
+    /// Every shape but planes lies within `reach` of the origin.
+    pub fn new(scene: &Scene, reach: f32) -> Self {
+        Self {
+            horizon: floats(scene.background.horizon),
+            zenith: floats(scene.background.zenith),
+            ambient: floats(scene.ambient),
+            reach,
+            ..Zeroable::zeroed()
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! Materials and their textures as the shaders want them: one match arm a kind.
+
+use super::float::{float, floats};
+use crate::interface::{material, texture};
+use crate::scene::{self, Matte};
+use bytemuck::{Pod, Zeroable};
+use glam::DVec3;
+
+/// `Material` of material/record.glsl.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct Material {
+    pub color: Texture,
+    pub ka: f32,
+    pub kd: f32,
+    pub ks: f32,
+    pub exponent: f32,
+    pub kind: u32,
+    pub pad0: [u32; 3],
+}
+
+/// `Texture` of texture/record.glsl.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct Texture {
+    pub color: [f32; 3],
+    pub kind: u32,
+    pub other_color: [f32; 3],
+    pub inverse_size: f32,
+    pub phase: [f32; 3],
+    pub pad0: u32,
+}
+
+impl Material {
+    /// In coordinates with this origin.
+    pub fn new(of: &scene::Material, origin: DVec3) -> Self {
+        let matte = |kind: u32, of: &Matte| Self {
+            color: Texture::new(&of.color, origin),
+            ka: float(of.ka),
+            kd: float(of.kd),
+            kind,
+            ..Zeroable::zeroed()
+        };
+        let constant = |kind: u32, color| Self {
+            color: Texture::new(&scene::Texture::constant(color), origin),
+            kind,
+            ..Zeroable::zeroed()
+        };
+        match of {
+            scene::Material::Matte(of) => matte(material::MATTE, of),
+            scene::Material::Phong(of) => {
+                let highlight = (float(of.ks), float(of.exponent));
+                Self { ks: highlight.0, exponent: highlight.1, ..matte(material::PHONG, &of.matte()) }
+            }
+            scene::Material::Mirror(of) => Self {
+                ks: float(of.ks),
+                exponent: float(of.exponent),
+                ..constant(material::MIRROR, of.reflectance)
+            },
+            scene::Material::Emissive(of) => constant(material::EMISSIVE, of.radiance),
+        }
+    }
+}
+
+impl Texture {
+    fn new(of: &scene::Texture, origin: DVec3) -> Self {
+        match of {
+            scene::Texture::Constant(of) => {
+                Self { color: floats(of.color), kind: texture::CONSTANT, ..Zeroable::zeroed() }
+            }
+            scene::Texture::Checker(of) => {
+                // The checker is the same again two cells farther along each axis.
+                let phase = origin.map(|coordinate| coordinate.rem_euclid(2.0 * of.size));
+                Self {
+                    color: floats(of.even),
+                    kind: texture::CHECKER,
+                    other_color: floats(of.odd),
+                    inverse_size: of.size.recip() as f32,
+                    phase: floats(phase.as_vec3()),
+                    pad0: 0,
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,8 @@
+//! Light along parallel lines, from beyond everything.
+
+use crate::scene::DirectionalLight;
+use glam::DVec3;
+
+pub(super) fn arriving(light: &DirectionalLight) -> (DVec3, f64) {
+    (light.direction.as_dvec3().normalize(), f64::INFINITY)
+}

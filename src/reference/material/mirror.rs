@@ -1,0 +1,20 @@
+//! Mirrors, and may show highlights of the lights.
+
+use super::Kind;
+use super::phong::highlight;
+use crate::reference::surface::Surface;
+use crate::scene::Mirror;
+use glam::{DVec3, Vec3};
+
+impl Kind for Mirror {
+    fn f(&self, at: &Surface, to_light: DVec3, to_viewer: DVec3) -> DVec3 {
+        DVec3::splat(highlight(self.ks, self.exponent, at, to_light, to_viewer))
+    }
+
+    /// Mirrored by the shading normal; what would then enter the surface is mirrored out of it again.
+    fn sample(&self, at: &Surface, direction: DVec3) -> Option<(DVec3, DVec3)> {
+        let mirrored = direction - 2.0 * direction.dot(at.shading_normal) * at.shading_normal;
+        let mirrored = mirrored - 2.0 * mirrored.dot(at.normal).min(0.0) * at.normal;
+        (self.reflectance != Vec3::ZERO).then_some((mirrored, self.reflectance.as_dvec3()))
+    }
+}

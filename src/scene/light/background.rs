@@ -1,0 +1,44 @@
+//! What is seen where nothing is hit.
+
+use crate::scene::toml::fault::{Fault, fault};
+use crate::scene::toml::number::Rgb;
+use glam::Vec3;
+use serde::Deserialize;
+use toml::Spanned;
+
+/// Radiance where nothing is hit: `horizon` up to the horizontal, `zenith` straight up, and in
+/// between mixed by `y (2 - y)` of the unit direction's height `y`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Background {
+    /// The radiance at and below the horizon.
+    pub horizon: Vec3,
+    /// The radiance straight up.
+    pub zenith: Vec3,
+}
+
+impl Background {
+    /// Nothing.
+    pub const BLACK: Self = Self { horizon: Vec3::ZERO, zenith: Vec3::ZERO };
+}
+
+/// `[background]`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene) struct BackgroundTable {
+    color: Option<Rgb>,
+    horizon: Option<Rgb>,
+    zenith: Option<Rgb>,
+}
+
+/// What the table says; black, where there is none.
+pub(in crate::scene) fn background(table: Option<&Spanned<BackgroundTable>>) -> Result<Background, Fault> {
+    let Some(span) = table else {
+        return Ok(Background::BLACK);
+    };
+    let table = span.get_ref();
+    match (&table.color, &table.horizon, &table.zenith) {
+        (Some(color), None, None) => Ok(Background { horizon: color.0, zenith: color.0 }),
+        (None, Some(horizon), Some(zenith)) => Ok(Background { horizon: horizon.0, zenith: zenith.0 }),
+        _ => Err(fault(span, "the background needs either color, or horizon and zenith")),
+    }
+}

@@ -1,0 +1,42 @@
+//! Reflects light evenly into all directions.
+
+use super::Kind;
+use crate::scene::Texture;
+use crate::scene::texture::TextureTable;
+use crate::scene::toml::number::NonNegative;
+use glam::DVec3;
+use serde::Deserialize;
+use std::f64::consts::FRAC_1_PI;
+
+/// Radiance = `ka color ambient + sum over lights of kd color / pi * radiance cos`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Matte {
+    /// Its colour.
+    pub color: Texture,
+    /// Ambient reflection.
+    pub ka: f32,
+    /// Diffuse reflection.
+    pub kd: f32,
+}
+
+impl Kind for Matte {
+    fn brightest(&self, lights: DVec3, ambient: DVec3) -> DVec3 {
+        let color = self.color.brightest().as_dvec3();
+        f64::from(self.ka) * color * ambient + f64::from(self.kd) * FRAC_1_PI * color * lights
+    }
+}
+
+/// `[matte.NAME]`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene) struct MatteTable {
+    color: TextureTable,
+    ka: NonNegative,
+    kd: NonNegative,
+}
+
+impl From<MatteTable> for Matte {
+    fn from(table: MatteTable) -> Self {
+        Self { color: table.color.into(), ka: table.ka.0, kd: table.kd.0 }
+    }
+}

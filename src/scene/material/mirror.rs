@@ -1,0 +1,45 @@
+//! Mirrors, perhaps with highlights of the lights.
+
+use super::Kind;
+use crate::scene::toml::number::{NonNegative, Rgb};
+use glam::{DVec3, Vec3};
+use serde::Deserialize;
+
+/// Radiance = `reflectance * mirror image + sum over lights of ks (r . view)^exponent * radiance cos`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mirror {
+    /// The share of the light that it mirrors.
+    pub reflectance: Vec3,
+    /// Specular reflection of lights.
+    pub ks: f32,
+    /// The larger, the smaller are the highlights.
+    pub exponent: f32,
+}
+
+impl Kind for Mirror {
+    fn brightest(&self, lights: DVec3, _ambient: DVec3) -> DVec3 {
+        f64::from(self.ks) * lights
+    }
+
+    fn reflectance(&self) -> Vec3 {
+        self.reflectance
+    }
+}
+
+/// `[mirror.NAME]`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene) struct MirrorTable {
+    color: Rgb,
+    kr: NonNegative,
+    #[serde(default)]
+    ks: NonNegative,
+    #[serde(default)]
+    exponent: NonNegative,
+}
+
+impl From<MirrorTable> for Mirror {
+    fn from(MirrorTable { color, kr, ks, exponent }: MirrorTable) -> Self {
+        Self { reflectance: color.0 * kr.0, ks: ks.0, exponent: exponent.0 }
+    }
+}
