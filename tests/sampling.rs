@@ -3,12 +3,13 @@
 mod common;
 
 use anyhow::{Result, ensure};
-use common::probe::{Index, STEP, disk, indices, sample_bits as bits};
+use bytemuck::{Pod, Zeroable};
+use common::probe::{Index, STEP, disk, indices, probe_as, sample_bits as bits};
 use common::statistics::{evenness_p, normal_p, sidak};
 use common::{Gpu, prove};
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
-use thinlens::reference::sampler;
+use thinlens::reference::sampler::{self, Use};
 use thinlens::settings::Sampler;
 
 const SAMPLERS: [Sampler; 3] = [Sampler::Random, Sampler::Sobol, Sampler::BlueNoise];
@@ -33,6 +34,78 @@ fn sample_values_are_the_oracles_to_the_bit() {
         Ok(format!("{compared} sample values, none differs"))
     };
     prove(check, &["sample_bits"]);
+}
+
+/// The place of a path's decision in the sequences of pixels and seeds.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+struct Decision {
+    pixel: [u32; 2],
+    sample_index: u32,
+    seed: u32,
+    bounce: u32,
+    of: u32,
+}
+
+const USES: [Use; 2] = [Use::Light, Use::Direction];
+
+/// Catches a block that is another's, of a bounce or a use or of film, lens and time; and values that the oracle has not.
+/// Of every pair of dimensions of two blocks, all cells of a grid must be about as full as random numbers fill them, at a
+/// pixel and over its samples. Numbers that depend on one another leave half of them empty.
+#[test]
+fn blocks_of_a_path_have_nothing_to_do_with_one_another() {
+    const CELLS: usize = 8;
+    const COUNT: u32 = 2048;
+    // Of random numbers, a cell's count is off by the square root of what is expected. The points of a sequence are not
+    // independent of each other, so that some cells may be off together.
+    const MOST: f64 = 4.0;
+    let places = [(0, 0), (0, 1), (1, 0), (1, 1), (2, 0), (63, 1)];
+    let check = |gpu: &Gpu| -> Result<String> {
+        let (mut most, mut pairs) = (0.0_f64, 0);
+        for sampler in SAMPLERS {
+            for pixel in [[0, 0], [37, 250]] {
+                let samples = |bounce: u32, of: u32| -> Vec<_> {
+                    let decision = |sample_index| Decision { pixel, sample_index, seed: 5, bounce, of };
+                    (0..COUNT).map(decision).collect()
+                };
+                let questions: Vec<Decision> =
+                    places.iter().flat_map(|(bounce, of)| samples(*bounce, *of)).collect();
+                let answers: Vec<[u32; 4]> = probe_as(gpu, "path", sampler, None, &[], &questions);
+                let values: Vec<[f64; 4]> =
+                    answers.iter().map(|values| values.map(|value| f64::from(value) * STEP)).collect();
+                for (of, values) in questions.iter().zip(&values) {
+                    let use_ = USES[of.of as usize];
+                    let expected = sampler::path_values(sampler, 5, pixel, of.sample_index, of.bounce, use_);
+                    ensure!(*values == expected, "{sampler:?}, {of:?}: {values:?}, not {expected:?}");
+                }
+                let camera = |index| sampler::sample_values(sampler, 5, pixel, index, 0);
+                let time = |index| [sampler::time_value(sampler, 5, pixel, index); 4];
+                let mut blocks: Vec<Vec<[f64; 4]>> =
+                    vec![(0..COUNT).map(camera).collect(), (0..COUNT).map(time).collect()];
+                blocks.extend(values.chunks(COUNT as usize).map(<[_]>::to_vec));
+                for (b, a) in (0..blocks.len()).flat_map(|b| (0..b).map(move |a| (b, a))) {
+                    for [x, y] in common::pixels([4, 4]).map(|pair| pair.map(|axis| axis as usize)) {
+                        let mut cells = [0; CELLS * CELLS];
+                        for (first, second) in blocks[a].iter().zip(&blocks[b]) {
+                            let cell = |value: f64| (value * CELLS as f64) as usize;
+                            cells[cell(first[x]) * CELLS + cell(second[y])] += 1;
+                        }
+                        let expected = f64::from(COUNT) / (CELLS * CELLS) as f64;
+                        let off = |count: &i32| (f64::from(*count) - expected).powi(2) / expected;
+                        let unevenness = cells.iter().map(off).sum::<f64>() / (CELLS * CELLS - 1) as f64;
+                        ensure!(
+                            unevenness < MOST,
+                            "{sampler:?}: dimension {x} of block {a} and {y} of {b}: {unevenness:.1}"
+                        );
+                        most = most.max(unevenness);
+                        pairs += 1;
+                    }
+                }
+            }
+        }
+        Ok(format!("{pairs} pairs of dimensions, at most {most:.2} times as uneven as random numbers"))
+    };
+    prove(check, &["path"]);
 }
 
 /// Catches a disk map that clusters: the device's own samples fill cells of equal area equally, and

@@ -19,6 +19,11 @@ const uvec4 BLUE_NOISE_SCRAMBLE = uvec4(0x0e7ef62eu, 0xeec210f3u, 0xbced7d2au, 0
 // Dimension blocks. FILM_AND_LENS holds the film jitter in xy and the lens point in zw.
 const uint BLOCK_FILM_AND_LENS = 0u;
 const uint BLOCK_TIME = 1u; // in x when the light passes the shutter
+// From there on, each bounce has a block for each use: its numbers stay whatever uses there are before it.
+const uint BLOCK_FIRST_BOUNCE = 2u;
+const uint USE_LIGHT = 0u; // which light, and where on it
+const uint USE_DIRECTION = 1u; // where the ray goes on, and whether
+const uint USES = 2u;
 
 // The pcg4d hash: M. Jarzynski and M. Olano, "Hash Functions for GPU Rendering",
 // JCGT 9(3), 2020, section 4.2.
@@ -80,18 +85,43 @@ vec4 sample_values(uvec4 keys, uint sample_index) {
     return vec4(bits >> 8u) * (1.0 / 16777216.0);
 }
 
-// A value in [0, 1) for the time: the points of the sequence's first dimension in another order, so that
-// it has nothing to do with film and lens: B. Burley, as above, section 4.
+// The index of a sample in another order of the sequence, so that what comes of it has nothing to do with what comes of
+// the index itself: B. Burley, as above, section 4. Every 2^k indices from a multiple of 2^k on stay together.
+uint shuffled_index(uint sample_index, uint order) {
+    return bitfieldReverse(scramble_upwards(uvec4(bitfieldReverse(sample_index)), uvec4(order)).x);
+}
+
+// A value in [0, 1) for the time: the points of the sequence's first dimension, in an order of its own.
 float time_value(uvec4 keys, uint sample_index) {
     if (SAMPLER == SAMPLER_RANDOM) {
         return sample_values(keys, sample_index).x;
     }
     const uvec2 BLUE_NOISE_ORDER = uvec2(0x6c8e9cf5u, 0x3f84d5b5u);
     uvec2 order = SAMPLER == SAMPLER_BLUE_NOISE ? BLUE_NOISE_ORDER : keys.xy;
-    uint shuffled = bitfieldReverse(scramble_upwards(uvec4(bitfieldReverse(sample_index)), order.xxxx).x);
+    uint shuffled = shuffled_index(sample_index, order.x);
     uint bits = bitfieldReverse(scramble_upwards(uvec4(shuffled), order.yyyy).x);
     bits ^= SAMPLER == SAMPLER_BLUE_NOISE ? keys.x : 0u;
     return float(bits >> 8u) * (1.0 / 16777216.0);
+}
+
+// The sample values of a path, for what is decided after the camera.
+struct PathSampler {
+    uint seed;
+    uvec2 pixel;
+    uint sample_index;
+};
+
+// Four values in [0, 1) for a use at a bounce. Each block has the points in an order of its own: in the same order, which
+// half of its range a value of one block lies in would say the same of another's. With blue noise, all pixels have one
+// order, as they have one sequence.
+vec4 path_values(PathSampler path, uint bounce, uint use) {
+    uint block = BLOCK_FIRST_BOUNCE + USES * bounce + use;
+    uvec4 keys = sample_keys(path.seed, path.pixel, block);
+    if (SAMPLER == SAMPLER_RANDOM) {
+        return sample_values(keys, path.sample_index);
+    }
+    uint order = folded(pcg4d(SAMPLER == SAMPLER_BLUE_NOISE ? uvec4(0u, block, 0u, 0u) : keys)).x;
+    return sample_values(keys, shuffled_index(path.sample_index, order) & 0xffffffu);
 }
 
 // Where on the film a sample falls, in pixels from its start pixel's centre, x right and y down,

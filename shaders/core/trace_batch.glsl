@@ -49,7 +49,8 @@ vec4 trace_batch(TracePush push, uvec2 pixel, out float moment) {
             ray_time = (time_value(time_keys, push.first_sample + i) - 0.5) * aperture.shutter;
         }
         bool given_up;
-        vec3 color = radiance(ray, push.max_bounces, rays, given_up);
+        PathSampler path = PathSampler(push.seed, pixel, push.first_sample + i);
+        vec3 color = radiance(ray, path, push.max_bounces, rays, given_up);
         color *= opening.z;
         if (!given_up && is_finite(color)) {
             vec4 one = vec4(color, 1.0);

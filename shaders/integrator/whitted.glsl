@@ -4,6 +4,7 @@
 #ifndef WHITTED_GLSL
 #define WHITTED_GLSL
 
+#include "core/sampling.glsl"
 #include "light/light.glsl"
 #include "material/material.glsl"
 
@@ -46,8 +47,8 @@ vec3 shade(Material material, vec3 color, SurfacePoint at, vec3 to_viewer, inout
 
 // The radiance that arrives along the ray: what the surface shows, plus its mirror image, followed
 // for at most max_bounces reflections. rays counts every ray traced, shadow rays among them. given_up: a search
-// took too long, and the radiance is of no use.
-vec3 radiance(Ray ray, uint max_bounces, inout uint rays, out bool given_up) {
+// took too long, and the radiance is of no use. Nothing here is left to chance, so path is not asked.
+vec3 radiance(Ray ray, PathSampler path, uint max_bounces, inout uint rays, out bool given_up) {
     vec3 sum = vec3(0.0);
     vec3 throughput = vec3(1.0);
     given_up = false;

@@ -72,6 +72,38 @@ pub fn time_value(sampler: Sampler, seed: u32, pixel: [u32; 2], index: u32) -> f
     }
 }
 
+/// What is decided at a bounce of a path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Use {
+    /// Which light, and where on it.
+    Light,
+    /// Where the ray goes on, and whether.
+    Direction,
+}
+
+/// Four values in [0, 1) for a use at a bounce of a path. They have a block of their own, whose points are in another
+/// order, as those of the time are.
+pub fn path_values(
+    sampler: Sampler,
+    seed: u32,
+    pixel: [u32; 2],
+    index: u32,
+    bounce: u32,
+    of: Use,
+) -> [f64; 4] {
+    let block = match of {
+        Use::Light => 2 * (bounce + 1),
+        Use::Direction => 2 * (bounce + 1) + 1,
+    };
+    let order = match sampler {
+        Sampler::Random => return sample_values(sampler, seed, pixel, index, block),
+        Sampler::Sobol => folded(folded([pixel[0], pixel[1], block, seed]))[0],
+        Sampler::BlueNoise => folded([0, block, 0, 0])[0],
+    };
+    let shuffled = owen_scramble(index, order) % (1 << 24);
+    sample_values(sampler, seed, pixel, shuffled, block)
+}
+
 /// The value in [0, 1) of these bits: the first 24 count.
 pub fn unit(bits: u32) -> f64 {
     f64::from(bits >> 8) / 16_777_216.0
