@@ -3,6 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use thinlens::interface;
 
 /// A module and what it may use of the crate, besides `error`.
 const ARROWS: [(&str, &[&str]); 17] = [
@@ -292,6 +293,66 @@ fn what_a_test_asks_for_is_read() {
     let test =
         "prove(|gpu| hold(&[\"x\"]), &[\"a\", \"b\"]);\n    prove(check, &[\"c\"]);\n}\nf(&[\"d\"]);\n}\n";
     assert_eq!(asked_for(test), ["a", "b", "c"]);
+}
+
+/// The kinds of everything that has a file for each: what they are kinds of, and their names.
+const KINDS: [(&str, &[&str]); 6] = [
+    ("aperture", interface::aperture::NAMES),
+    ("integrator", interface::integrator::NAMES),
+    ("light", interface::light::NAMES),
+    ("material", interface::material::NAMES),
+    ("shape", interface::shape::NAMES),
+    ("texture", interface::texture::NAMES),
+];
+
+/// What a kind lacks: the files on every side, its row in the description of scene files, and a planted fault.
+fn missing(of: &str, kind: &str, has_file: impl Fn(&str) -> bool, rows: &str) -> Vec<String> {
+    let shader = format!("{of}/{kind}.glsl");
+    let mut files = vec![
+        format!("shaders/{shader}"),
+        format!("src/reference/{of}/{kind}.rs"),
+        format!("tests/faults/{shader}.txt"),
+    ];
+    // There is nothing to say of an integrator in a scene file.
+    if of != "integrator" {
+        files.push(format!("src/scene/{of}/{kind}.rs"));
+    }
+    let mut missing: Vec<String> = files.into_iter().filter(|file| !has_file(file)).collect();
+    let headers = [kind.to_owned(), format!("[{kind}]"), format!("[[{kind}]]")];
+    if !headers.iter().any(|header| rows.lines().any(|line| line.starts_with(&format!("| `{header}` |")))) {
+        missing.push(format!("a row of {kind} in docs/scenes.md"));
+    }
+    missing
+}
+
+/// Catches a kind that is there on one side only, that no reader is told of, or in which no test looks for a mistake.
+/// That the device is asked about it, too, `tests/surfaces.rs` and `tests/aperture.rs` see to.
+#[test]
+fn every_kind_is_complete() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let rows = std::fs::read_to_string(root.join("docs/scenes.md")).expect("a readable file");
+    let mut kinds = 0;
+    for (of, names) in KINDS {
+        for kind in names.iter().map(|name| name.to_lowercase()) {
+            let has_file = |file: &str| root.join(file).is_file();
+            assert_eq!(missing(of, &kind, has_file, &rows), Vec::<String>::new(), "{of} {kind}");
+            kinds += 1;
+
+            // And each of them is missed.
+            let shader = format!("{of}/{kind}.glsl");
+            for gone in [
+                format!("shaders/{shader}"),
+                format!("src/reference/{of}/{kind}.rs"),
+                format!("tests/faults/{shader}.txt"),
+            ] {
+                let found = missing(of, &kind, |file| file != gone && has_file(file), &rows);
+                assert_eq!(found, [gone]);
+            }
+            let undocumented = rows.replace(&format!("{kind}]"), "").replace(&format!("`{kind}`"), "");
+            assert_eq!(missing(of, &kind, has_file, &undocumented).len(), 1, "{of} {kind}");
+        }
+    }
+    assert!(kinds > 15, "only {kinds} kinds were looked at");
 }
 
 /// Every `folder/file` of the project that a text names in backquotes.
