@@ -2,8 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 
-// For overlays: how deep each pixel's middle sees through the centre of the lens, along the optical axis, in
-// the middle of the exposure.
+// For overlays: what each pixel's middle sees through the centre of the lens, in the middle of the exposure. The
+// unit normal of the surface, on the side that is seen, stands in the camera's frame: to the right, up, and back to
+// the lens. In w is the depth along the optical axis; MISS where nothing is seen.
 
 #include "interface.glsl"
 
@@ -13,7 +14,7 @@ layout(local_size_x = GROUP_SIZE, local_size_y = GROUP_SIZE) in;
 #include "core/film.glsl"
 #include "scene/intersect.glsl"
 
-layout(set = 0, binding = BINDING_DEPTH_IMAGE, r32f) writeonly uniform image2D depth_image;
+layout(set = 0, binding = BINDING_SURFACE_IMAGE, rgba32f) writeonly uniform image2D surface_image;
 
 layout(push_constant, std430) uniform GeometryPush {
     Camera camera;
@@ -31,6 +32,15 @@ void main() {
     Ray ray = primary_ray(push.camera, q, vec2(0.0));
     bool given_up = false;
     Hit hit = intersect_scene(ray, given_up);
-    float depth = hit.distance < MISS ? hit.distance * -dot(ray.direction, push.camera.w) : MISS;
-    imageStore(depth_image, ivec2(pixel), vec4(given_up ? MISS : depth));
+    vec4 seen = vec4(vec3(0.0), MISS);
+    if (hit.distance < MISS && !given_up) {
+        vec3 position = ray.origin + hit.distance * ray.direction;
+        float error;
+        vec3 normal = settle(hit.surface, position, error);
+        float side = dot(normal, ray.direction) > 0.0 ? -1.0 : 1.0;
+        normal = side * (hit.surface.shading_normal == vec3(0.0) ? normal : hit.surface.shading_normal);
+        seen.xyz = normal * mat3(push.camera.u, push.camera.v, push.camera.w);
+        seen.w = hit.distance * -dot(ray.direction, push.camera.w);
+    }
+    imageStore(surface_image, ivec2(pixel), seen);
 }

@@ -17,8 +17,8 @@ layout(local_size_x = GROUP_SIZE, local_size_y = GROUP_SIZE) in;
 layout(set = 0, binding = BINDING_FILM_IMAGE, rgba32f) readonly uniform image2D film_image;
 layout(set = 0, binding = BINDING_PICTURE_IMAGE, rgba8) writeonly uniform image2D picture_image;
 
-// Of the overlays: depth along the axis, and second moments of luminance where the film has some.
-layout(set = 0, binding = BINDING_DEPTH_IMAGE, r32f) readonly uniform image2D depth_image;
+// Of the overlays: what each pixel's middle sees, and second moments of luminance where the film has some.
+layout(set = 0, binding = BINDING_SURFACE_IMAGE, rgba32f) readonly uniform image2D surface_image;
 layout(set = 0, binding = BINDING_FILM_MOMENTS, r32f) readonly uniform image2D film_moments;
 
 // 0: every texel is known to have a sample. Mesa's software device runs through what is not taken of a
@@ -85,7 +85,7 @@ void main() {
     if (HAS_OVERLAY == 1u) {
         ivec2 site = min(site_of(ivec2(cell)), ivec2(push.extent) - 1);
         float error = HAS_MOMENTS == 1u ? relative_error(film, imageLoad(film_moments, site).r) : 0.0;
-        shown = overlay_color(push.overlay, shown, film.w, error, imageLoad(depth_image, site).r);
+        shown = overlay_color(push.overlay, shown, film.w, error, imageLoad(surface_image, site));
     }
     vec4 color = vec4(srgb_encode(shown), 1.0);
     color = push.blue_first == 1u ? color.bgra : color;

@@ -24,8 +24,8 @@ pub mod binding {
         FILM_IMAGE,
         /// The picture as it is shown or written.
         PICTURE_IMAGE,
-        /// How deep each pixel sees.
-        DEPTH_IMAGE,
+        /// What each pixel's middle sees: the normal of the surface, and in w its depth.
+        SURFACE_IMAGE,
         /// The second moments of the tracing image.
         TRACED_MOMENTS,
         /// The second moments of the accumulation image.

@@ -38,11 +38,11 @@ fn resolve(gpu: &Gpu, case: &Case) -> Result<Vec<u8>> {
     let device = gpu.device();
     let film = Arc::new(Image::rgba32f(device, "film", case.extent)?);
     let picture = Arc::new(Image::rgba8(device, "picture", case.extent)?);
-    let depth = Arc::new(Image::r32f(device, "depth", [1, 1])?);
+    let surfaces = Arc::new(Image::rgba32f(device, "surfaces", [1, 1])?);
     let adaptive = Adaptive::new(device, None)?;
     let mut commands = Commands::new(device)?;
     let mut recording = commands.begin()?;
-    recording.clear(&depth);
+    recording.clear(&surfaces);
     adaptive.moments().iter().for_each(|moments| recording.clear(moments));
     recording.clear(&film);
     recording.clear(&picture);
@@ -59,7 +59,7 @@ fn resolve(gpu: &Gpu, case: &Case) -> Result<Vec<u8>> {
 
     let kind = if case.has_holes { ResolveKind::WithHoles } else { ResolveKind::WithoutHoles };
     let resolve = Resolve::new(device, gpu.shader("resolve"), kind)?;
-    let bindings = resolve.bind(&film, &picture, &depth, &adaptive)?;
+    let bindings = resolve.bind(&film, &picture, &surfaces, &adaptive)?;
     let push = ResolvePush {
         extent: case.extent,
         preview_stride: case.preview_stride,

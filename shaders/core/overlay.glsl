@@ -26,7 +26,9 @@ vec3 heat(float share) {
     return clamp(vec3(3.0 * share, 3.0 * share - 1.0, 3.0 * share - 2.0), 0.0, 1.0);
 }
 
-vec3 overlay_color(OverlayScale scale, vec3 picture, float count, float error, float depth) {
+// surface: the normal that the pixel's middle sees, in the camera's frame, and the depth.
+vec3 overlay_color(OverlayScale scale, vec3 picture, float count, float error, vec4 surface) {
+    float depth = surface.w;
     switch (scale.kind) {
     case OVERLAY_COUNT:
         return vec3(count / scale.full_scale);

@@ -1,4 +1,4 @@
-//! Finds how deep each pixel sees.
+//! Finds what the middle of each pixel sees.
 
 use super::SceneBuffers;
 use crate::error::Result;
@@ -22,10 +22,10 @@ impl Geometry {
         Ok(Self(ComputePipeline::new(device, shader, scene.constants())?))
     }
 
-    /// From `scene` into `depth`.
-    pub fn bind(&self, scene: &SceneBuffers, depth: &Arc<Image>) -> Result<BindingSet> {
+    /// From `scene` into `surfaces`.
+    pub fn bind(&self, scene: &SceneBuffers, surfaces: &Arc<Image>) -> Result<BindingSet> {
         let mut bindings = scene.bindings();
-        bindings.push((binding::DEPTH_IMAGE, Binding::Image(Arc::clone(depth))));
+        bindings.push((binding::SURFACE_IMAGE, Binding::Image(Arc::clone(surfaces))));
         BindingSet::new(&self.0, &bindings)
     }
 

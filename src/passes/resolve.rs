@@ -39,19 +39,19 @@ impl Resolve {
         Ok(Self(ComputePipeline::new(device, shader, &constants)?))
     }
 
-    /// From `film` into `picture`, for passes of every kind. Overlays also look at `depth` and moments.
+    /// From `film` into `picture`, for passes of every kind. Overlays also look at `surfaces` and moments.
     pub fn bind(
         &self,
         film: &Arc<Image>,
         picture: &Arc<Image>,
-        depth: &Arc<Image>,
+        surfaces: &Arc<Image>,
         adaptive: &Adaptive,
     ) -> Result<BindingSet> {
         let image = |image: &Arc<Image>| Binding::Image(Arc::clone(image));
         let bindings = [
             (binding::FILM_IMAGE, image(film)),
             (binding::PICTURE_IMAGE, image(picture)),
-            (binding::DEPTH_IMAGE, image(depth)),
+            (binding::SURFACE_IMAGE, image(surfaces)),
             adaptive.bind_active(0),
         ];
         BindingSet::new(&self.0, &[&bindings[..], &[adaptive.bind_film_moments()]].concat())

@@ -66,15 +66,15 @@ impl FilmImages {
     }
 }
 
-/// How deep each pixel sees, for the overlays that want to know; of one pixel where none does.
-pub(super) struct DepthImage {
+/// What each pixel's middle sees, for the overlays that want to know; of one pixel where none does.
+pub(super) struct SurfaceImage {
     pub(super) image: Arc<Image>,
-    /// What its depths are of.
+    /// What it is of.
     shows: Option<Seen>,
     has_layout: bool,
 }
 
-/// What the depths depend on, besides the size: the lens is not among it.
+/// What a surface image depends on, besides the size: the lens is not among it.
 #[derive(Clone, PartialEq)]
 pub(super) struct Seen {
     scene: SceneRef,
@@ -92,9 +92,9 @@ impl Seen {
     }
 }
 
-impl DepthImage {
+impl SurfaceImage {
     pub(super) fn new(device: &Arc<Device>, settings: &Settings) -> Result<Self> {
-        let image = Arc::new(Image::r32f(device, "depth", Self::extent(settings))?);
+        let image = Arc::new(Image::rgba32f(device, "surfaces", Self::extent(settings))?);
         Ok(Self { image, shows: None, has_layout: false })
     }
 
@@ -115,7 +115,7 @@ impl DepthImage {
         }
     }
 
-    /// Whether the depths of this view are to be found, which they count as from now on.
+    /// Whether this view has still to be traced. From now on it counts as traced.
     pub(super) fn goes_to(&mut self, seen: Seen) -> bool {
         self.shows.replace(seen.clone()) != Some(seen)
     }

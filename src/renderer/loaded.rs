@@ -1,6 +1,6 @@
 //! All that a device has loaded for a picture.
 
-use super::film::{DepthImage, FilmImages};
+use super::film::{FilmImages, SurfaceImage};
 use super::pick::Asked;
 use super::prepared::{Prepared, Preparer};
 use crate::error::Result;
@@ -13,7 +13,7 @@ use std::sync::Arc;
 pub(super) struct Loaded {
     pub(super) prepared: Prepared,
     pub(super) images: FilmImages,
-    pub(super) depth: DepthImage,
+    pub(super) surfaces: SurfaceImage,
     pub(super) passes: Passes,
 }
 
@@ -24,7 +24,7 @@ pub(super) struct Passes {
     /// Of adaptive pictures.
     pub(super) select: Option<Bound<Select>>,
     pub(super) resolve: BoundResolve,
-    /// For overlays that show depth.
+    /// For overlays that show surfaces.
     pub(super) geometry: Option<(Arc<Geometry>, BindingSet)>,
     /// For questions.
     pub(super) pick: Option<BoundPick>,
@@ -54,9 +54,9 @@ pub(super) struct BoundPick {
 impl Loaded {
     pub(super) fn new(preparer: &Preparer, settings: &Settings, prepared: Prepared) -> Result<Self> {
         let images = FilmImages::new(&preparer.device, &settings.estimator)?;
-        let depth = DepthImage::new(&preparer.device, settings)?;
-        let passes = Passes::new(preparer, &prepared, &images, &depth)?;
-        Ok(Self { prepared, images, depth, passes })
+        let surfaces = SurfaceImage::new(&preparer.device, settings)?;
+        let passes = Passes::new(preparer, &prepared, &images, &surfaces)?;
+        Ok(Self { prepared, images, surfaces, passes })
     }
 
     /// Takes what was prepared for these settings, and keeps the images that fit them. What an error leaves is what
@@ -70,32 +70,33 @@ impl Loaded {
         let device = &preparer.device;
         let fits = self.images.fit(&settings.estimator);
         let images = (!fits).then(|| FilmImages::new(device, &settings.estimator)).transpose()?;
-        let depth = (!self.depth.fits(settings)).then(|| DepthImage::new(device, settings)).transpose()?;
+        let surfaces =
+            (!self.surfaces.fits(settings)).then(|| SurfaceImage::new(device, settings)).transpose()?;
         let passes = Passes::new(
             preparer,
             &prepared,
             images.as_ref().unwrap_or(&self.images),
-            depth.as_ref().unwrap_or(&self.depth),
+            surfaces.as_ref().unwrap_or(&self.surfaces),
         )?;
         // What frames in flight use goes only when they are done.
         device.wait_idle()?;
         (self.passes, self.prepared) = (passes, prepared);
         images.into_iter().for_each(|images| self.images = images);
-        depth.into_iter().for_each(|depth| self.depth = depth);
+        surfaces.into_iter().for_each(|surfaces| self.surfaces = surfaces);
         Ok(())
     }
 
     /// Whether nothing is to be replaced for these settings and what was prepared for them.
     pub(super) fn fits(&self, settings: &Settings, prepared: &Prepared) -> bool {
-        self.prepared.is(prepared) && self.images.fit(&settings.estimator) && self.depth.fits(settings)
+        self.prepared.is(prepared) && self.images.fit(&settings.estimator) && self.surfaces.fits(settings)
     }
 }
 
 impl Passes {
     /// Binds everything anew, which is soon done: so nothing that was replaced stays bound.
-    fn new(preparer: &Preparer, of: &Prepared, images: &FilmImages, depth: &DepthImage) -> Result<Self> {
+    fn new(preparer: &Preparer, of: &Prepared, images: &FilmImages, surfaces: &SurfaceImage) -> Result<Self> {
         let FilmImages { traced, film, picture, adaptive, .. } = images;
-        let depth = &depth.image;
+        let surfaces = &surfaces.image;
         let resolve = &preparer.resolve_with_holes;
         Ok(Self {
             trace: bound(&of.trace, |list| {
@@ -106,14 +107,14 @@ impl Passes {
                 .map(|select| bound(select, |list| select.bind(traced, film, adaptive, list)))
                 .transpose()?,
             resolve: BoundResolve {
-                film: resolve.bind(film, picture, depth, adaptive)?,
-                preview: resolve.bind(traced, picture, depth, adaptive)?,
+                film: resolve.bind(film, picture, surfaces, adaptive)?,
+                preview: resolve.bind(traced, picture, surfaces, adaptive)?,
                 without_holes: Arc::clone(&preparer.resolve_without_holes),
                 with_holes: Arc::clone(resolve),
                 overlay: of.resolve_overlay.clone(),
             },
             geometry: (of.geometry.as_ref())
-                .map(|geometry| Ok((Arc::clone(geometry), geometry.bind(&of.scene, depth)?)))
+                .map(|geometry| Ok((Arc::clone(geometry), geometry.bind(&of.scene, surfaces)?)))
                 .transpose()?,
             pick: (of.pick.as_ref())
                 .map(|pick| {

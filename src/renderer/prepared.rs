@@ -35,7 +35,7 @@ pub struct Prepared {
     pub(super) select: Option<Arc<Select>>,
     /// For overlays.
     pub(super) resolve_overlay: Option<Arc<Resolve>>,
-    /// For overlays that show depth.
+    /// For overlays that show surfaces.
     pub(super) geometry: Option<Arc<Geometry>>,
     /// For questions.
     pub(super) pick: Option<Arc<Pick>>,

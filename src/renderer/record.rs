@@ -123,7 +123,7 @@ impl Renderer {
 
     pub(super) fn record_resolve_as(&mut self, recording: &mut Recording<'_>, blue_first: bool) {
         self.record_clear(recording, true);
-        self.record_depth(recording);
+        self.record_surfaces(recording);
         let resolve = &self.loaded.passes.resolve;
         let (bindings, preview_stride) = match self.standing.samples {
             0 => (&resolve.preview, self.standing.filled_stride),
@@ -151,13 +151,13 @@ impl Renderer {
         self.standing.resolved = Some((push, has_holes));
     }
 
-    /// Finds the depths anew, if an overlay shows some and they are not of this view.
-    fn record_depth(&mut self, recording: &mut Recording<'_>) {
-        let Loaded { passes, depth, .. } = &mut self.loaded;
+    /// Finds what each pixel's middle sees, if an overlay needs it and it is not of this view.
+    fn record_surfaces(&mut self, recording: &mut Recording<'_>) {
+        let Loaded { passes, surfaces, .. } = &mut self.loaded;
         let estimator = &self.settings.estimator;
-        depth.record_layout(recording);
+        surfaces.record_layout(recording);
         if let Some((geometry, bindings)) = &passes.geometry
-            && depth.goes_to(Seen::new(estimator))
+            && surfaces.goes_to(Seen::new(estimator))
         {
             recording.barrier();
             geometry.record(recording, bindings, Camera::new(estimator), estimator.size);
