@@ -215,6 +215,8 @@ pub mod overlay {
         CIRCLE_OF_CONFUSION,
         /// The depth along the axis.
         DEPTH,
+        /// Which way surfaces face.
+        NORMALS,
         /// The number of samples.
         COUNT,
         /// The standard error.

@@ -36,6 +36,8 @@ vec3 overlay_color(OverlayScale scale, vec3 picture, float count, float error, v
         return heat(error / scale.full_scale);
     case OVERLAY_DEPTH: // white at the lens, grey in the focal plane, black far away
         return vec3(1.0 / (1.0 + depth * scale.inverse_focal_distance));
+    case OVERLAY_NORMALS: // black where there is no surface
+        return depth < MISS ? 0.5 + 0.5 * surface.xyz : vec3(0.0);
     case OVERLAY_CIRCLE_OF_CONFUSION:
         float share = clamp(circle_of_confusion(scale, depth) / scale.full_scale, -1.0, 1.0);
         return mix(vec3(1.0), share < 0.0 ? IN_FRONT : BEHIND, abs(share));

@@ -12,6 +12,7 @@ pub enum Overlay {
     FocalPlane = overlay::FOCAL_PLANE,
     CircleOfConfusion = overlay::CIRCLE_OF_CONFUSION,
     Depth = overlay::DEPTH,
+    Normals = overlay::NORMALS,
     Count = overlay::COUNT,
     Error = overlay::ERROR,
 }
@@ -63,7 +64,7 @@ pub enum FullScale {
 }
 
 /// Every overlay, in the order of menus and help texts.
-pub const OVERLAYS: [Entry; 6] = [
+pub const OVERLAYS: [Entry; 7] = [
     Entry {
         overlay: Overlay::FocusPeaking,
         name: "focus-peaking",
@@ -106,10 +107,27 @@ pub const OVERLAYS: [Entry; 6] = [
         labels: |_, distance| labels("lens", &format!("{distance:.4}"), "far away"),
     },
     Entry {
+        overlay: Overlay::Normals,
+        name: "normals",
+        label: "Normals",
+        help: "Which way surfaces face: the more red to the right, the more green upwards, and blue to the lens.",
+        source: Source::Surface,
+        full_scale: FullScale::Number(1.0),
+        // From left over the lens to the right, along the horizontal.
+        colors: &[
+            [0.0, 0.5, 0.5],
+            [0.146, 0.5, 0.854],
+            [0.5, 0.5, 1.0],
+            [0.854, 0.5, 0.854],
+            [1.0, 0.5, 0.5],
+        ],
+        labels: |_, _| labels("to the left", "to the lens", "to the right"),
+    },
+    Entry {
         overlay: Overlay::Count,
         name: "count",
         label: "Sample counts",
-        help: "How many points each pixel has: black for none, white for as many as the slider says.",
+        help: "How many points each pixel has: black for none, white for as many as are wanted.",
         source: Source::Film,
         full_scale: FullScale::Samples,
         colors: &[[0.0; 3], [1.0; 3]],

@@ -3,7 +3,7 @@
 use super::setting::file;
 use super::{Access, Called, Role, Setting, Settings, Value, list};
 use crate::error::Result;
-use clap::builder::{PathBufValueParser, PossibleValuesParser, TypedValueParser, ValueParser};
+use clap::builder::{PathBufValueParser, PossibleValue, PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgMatches, Command, FromArgMatches};
 
 /// What is to be changed of settings, in the order of the list.
@@ -103,10 +103,16 @@ fn option(setting: &'static Setting) -> Arg {
             .value_name(setting.value_name)
             .value_parser(PathBufValueParser::new().map(|path| file(&path))),
         Access::Choice(_, choices) => {
-            let names: Vec<&str> = choices().into_iter().map(|choice| choice.name).collect();
-            let listed = setting.value_name.is_empty();
-            let name = if listed { names.join("|") } else { setting.value_name.into() };
-            let one = PossibleValuesParser::new(names).try_map(|name| setting.parse(&name));
+            let choices = choices();
+            let names: Vec<&str> = choices.iter().map(|choice| choice.name).collect();
+            let explained = choices.iter().any(|choice| !choice.help.is_empty());
+            let listed = setting.value_name.is_empty() && !explained;
+            let name = match setting.value_name {
+                "" => names.join("|"),
+                name => name.into(),
+            };
+            let values = choices.iter().map(|choice| PossibleValue::new(choice.name).help(choice.help));
+            let one = PossibleValuesParser::new(values).try_map(|name| setting.parse(&name));
             option.value_name(name).hide_possible_values(listed).value_parser(one)
         }
         _ => option.allow_negative_numbers(true).value_name(setting.value_name).value_parser(text),

@@ -177,10 +177,16 @@ pub fn circle_of_confusion(diameter: f64, focal_distance: f64, z: f64, k: f64) -
 /// What the oracle sees through the lens centre, so far from a pixel's centre: the depth along the axis, and the
 /// name of the material.
 pub fn seen(estimator: &Estimator, pixel: [u32; 2], offset: [f64; 2]) -> Option<(f64, &str)> {
+    let (depth, hit) = met(estimator, pixel, offset)?;
+    Some((depth, &estimator.scene.material_names[hit.material as usize]))
+}
+
+/// Likewise, with all that the oracle knows of what is met there.
+pub fn met(estimator: &Estimator, pixel: [u32; 2], offset: [f64; 2]) -> Option<(f64, intersect::Hit)> {
     let ray = Reference::new(estimator).trace(pixel, offset, [0.0; 2], 0.0).ray;
     let hit = intersect::intersect(&estimator.scene, ray, 0.0)?;
     let axis = (estimator.camera.look_at - estimator.camera.eye).normalize();
-    Some((hit.distance * ray.direction.dot(axis), &estimator.scene.material_names[hit.material as usize]))
+    Some((hit.distance * ray.direction.dot(axis), hit))
 }
 
 /// Films of the same settings with the seeds `0 .. count`: r, g, b of each pixel.

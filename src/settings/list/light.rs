@@ -91,9 +91,7 @@ pub(super) static VIEW: &[Setting] = &[
         flag: "overlay",
         letter: None,
         value_name: "",
-        help: "Show, in a PNG or the window, instead of the picture: circle-of-confusion (blue in front of the focal \
-               plane, orange behind), depth, samples (count) or error of each pixel; or the picture with what is sharp \
-               marked (focus-peaking), or what the focal plane cuts (focal-plane)",
+        help: "What to show, in a PNG or the window, instead of the picture or on it",
         default: "the scene's, or none",
         role: Role::View,
         key: view("overlay"),
