@@ -88,8 +88,7 @@ if ! command -v cargo >/dev/null && [ -x "${CARGO_HOME:-$HOME/.cargo}/bin/cargo"
     fail "cargo is installed but not on this shell's PATH; run: . ${CARGO_HOME:-$HOME/.cargo}/env"
 fi
 command -v cargo >/dev/null || fail "Rust is missing (thinlens needs $needed or newer); $rustup_hint"
-have=$(cargo --version 2>/dev/null | awk '{print $2}') || fail "rustup lacks the Rust that rust-toolchain.toml names; run: \
-rustup toolchain install; or, to use the Rust that is here: export RUSTUP_TOOLCHAIN=stable"
+have=$(cargo --version | awk '{print $2}')
 oldest=$(printf '%s\n%s\n' "$needed" "${have%%-*}" | sort -V | head -n 1)
 [ "$oldest" = "$needed" ] \
     || fail "Rust $have is too old (thinlens needs $needed or newer); run: rustup update stable"
