@@ -8,19 +8,20 @@
 #ifndef BVH_GLSL
 #define BVH_GLSL
 
-// The inverses of a shape's distance and of a box's are rounded each in its own way.
+// The distances to a shape and to its bounding box are rounded differently. This slack keeps a ray that hits the shape
+// from missing the box.
 const float BOX_SLACK = 1.0 + 1e-6;
 
-// Nodes on the longest way from the root to a leaf; at each, some children can be left behind.
+// The number of nodes on the longest path from the root to a leaf. The search can leave children behind at each.
 layout(constant_id = ID_TREE_DEPTH) const uint TREE_DEPTH = 0u; // 0: no tree
-// A ray that needs more steps is given up: Mesa's software device would end it silently later on.
+// A ray that needs more steps than this is given up: Mesa's software device would end its loop silently later on.
 layout(constant_id = ID_MOST_TREE_STEPS) const uint MOST_TREE_STEPS = 1024u;
 
-// Boxes around the children, whose planes stand on a grid of the node's own.
+// A node: the bounding boxes of its children. Their planes lie on a grid that each node has for itself.
 struct TreeNode {
     vec3 origin;
-    uint about; // bytes: the exponents of the grid's steps, and the number of children
-    uvec2 planes_x; // a byte for each child: the lower ones, then the upper
+    uint about; // bytes: the exponents of the grid's steps along x, y and z, and the number of children
+    uvec2 planes_x; // a byte for each child: the lower planes, then the upper planes
     uvec2 planes_y;
     uvec2 planes_z;
     uint first; // the first child's record
@@ -52,8 +53,8 @@ float tree_shape_distance(Ray ray, vec3 inverse_direction, ShapeRecord shape) {
 
 const uint FAR_KEY = 0xffffffffu;
 
-// A child's distance, which is not negative, and its number, in one unsigned number to sort by.
-// No slack is small enough for the box of a child that is not there: exists says so.
+// A key to sort children by: the bits of the distance, which is not negative, with the child's number in the lowest
+// two. exists is false for a child that the node does not have. With the slack, a ray could meet even an empty box.
 uint child_key(vec3 enter, vec3 leave, float limit, uint child, bool exists) {
     float near = larger(larger(enter.x, enter.y), larger(enter.z, 0.0));
     float far = smaller(smaller(leave.x, leave.y), smaller(leave.z, limit));
@@ -62,8 +63,8 @@ uint child_key(vec3 enter, vec3 leave, float limit, uint child, bool exists) {
 
 #define SORT(a, b) { uint smaller_key = min(a, b); b = max(a, b); a = smaller_key; }
 
-// The children of a node whose boxes the ray meets before limit, two bits each, and above them all a one. Sorted,
-// the nearest is in the lowest bits.
+// The numbers of the children whose boxes the ray meets before limit, two bits each, and a one above them all. If the
+// children are sorted, the nearest one is in the lowest bits.
 const uint NO_CHILDREN = 1u;
 
 uint meet_children(Ray ray, vec3 inverse_direction, float limit, bool sorted, TreeNode node) {
@@ -94,9 +95,10 @@ uint meet_children(Ray ray, vec3 inverse_direction, float limit, bool sorted, Tr
     return keys[0] != FAR_KEY ? met << 2u | keys[0] & 3u : met;
 }
 
-// What was left behind of nodes' children, the last first: the first child's record, and in the lowest bits those
-// still to be visited, as meet_children() gives them. A stack that shifts needs no index that differs from
-// invocation to invocation, and is spelled out, for Mesa's software device unrolls no loop inside another one.
+// The children that the search has left behind, an entry for each node, the latest node first. An entry is the record
+// of the node's first child, and in the lowest bits the children still to visit, as meet_children() returns them. A
+// stack that shifts needs no index that differs from invocation to invocation. The shifts are spelled out, because
+// Mesa's software device unrolls no loop inside another one.
 uint stack[TREE_DEPTH + 1u];
 const uint STACK_CHILD_BITS = 32u - STACK_INDEX_BITS;
 const uint STACK_CHILDREN = (1u << STACK_CHILD_BITS) - 1u;
@@ -108,7 +110,7 @@ const uint STACK_CHILDREN = (1u << STACK_CHILD_BITS) - 1u;
         above = here; \
     }
 
-// Pushes or pops one entry, or neither; gives what was on top.
+// Pushes one entry, pops one, or does neither. Returns the entry that was on top.
 uint shift_stack(bool pushes, bool pops, uint above) {
     uint depth = TREE_DEPTH;
     uint top = stack[0];

@@ -1,5 +1,5 @@
-// The nearest shape along a ray, of those in the list: each is tried. The list has the kinds one after the other, and
-// the ends of their ranges are specialization constants, so that each loop knows its kind and how often it goes round.
+// Finds the nearest shape along a ray by testing each shape of the list. The list is sorted by kind, and the end of
+// each kind's range is a specialization constant, so that each loop has one kind and a fixed number of iterations.
 
 #ifndef LIST_GLSL
 #define LIST_GLSL
@@ -10,7 +10,7 @@ void keep_nearer(inout Nearest nearest, float distance, uint i) {
     }
 }
 
-// A bounded shape of the list where it is by now.
+// A bounded shape of the list, moved to where it is at the time of the ray.
 #define LISTED_NOW(kind_) \
     ShapeRecord shape = get_listed(i); \
     if (SCENE_MOVES == 1u) { \
@@ -34,8 +34,9 @@ void find_unbounded(Ray ray, vec3 inverse_direction, inout Nearest nearest) {
     FOR_EACH_UNBOUNDED_KIND(FIND_UNBOUNDED)
 }
 
-// The hit of a shape of a kept list, without a fetch: each kind is looked for among its own, and only for what it
-// needs. The index differs from invocation to invocation. A scene with a kept list and no tree has LIST_BEGIN = 0.
+// The hit of a shape in a list that was copied, without a fetch. Each kind searches the range of its own shapes, and
+// reads only the copies that it needs. The index differs from invocation to invocation, so the copies are gone through
+// instead of indexed. A scene with a copied list and no tree has LIST_BEGIN = 0.
 Hit hit_in_list(Ray ray, vec3 inverse_direction, Nearest nearest, vec3 position) {
     uint index = nearest.record;
     Hit hit = Hit(nearest.distance, 0u, NO_SURFACE, vec3(0.0));
@@ -75,7 +76,7 @@ Hit hit_in_list(Ray ray, vec3 inverse_direction, Nearest nearest, vec3 position)
     return hit;
 }
 
-// For shadows: the distances alone.
+// Shadow rays need only the distance.
 float bounded_distance(Ray ray, vec3 inverse_direction) {
     float nearest = MISS;
 #define BOUNDED_DISTANCE(KIND, kind_) \

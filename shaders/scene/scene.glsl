@@ -7,27 +7,27 @@
 #include "material/record.glsl"
 #include "shape/kinds.glsl"
 
-// Whether there are things of this kind, if kinds has a bit for each that there is.
+// Whether a set of kinds, which has a bit for each kind, contains this one.
 bool has_kind(uint kinds, uint kind) {
     return (kinds >> kind & 1u) != 0u;
 }
 
-// Whether a thing is of this kind. Where there is only one kind, that is known.
+// Whether a thing is of this kind. Where the scene has one kind alone, the compiler knows the answer.
 bool is_of_kind(uint kinds, uint kind_of_thing, uint kind) {
     return has_kind(kinds, kind) && (kinds == 1u << kind || kind_of_thing == kind);
 }
 
-// The numbers of things are specialization constants, so that loops over them can unroll. Of shapes there are the
-// ends of the ranges of each kind: see build.rs.
+// The numbers of lights and materials are specialization constants, so that loops over them can unroll. For shapes, the
+// constants are where the range of each kind ends in the list: see build.rs.
 layout(constant_id = ID_LIGHT_COUNT) const uint LIGHT_COUNT = 1u;
-layout(constant_id = ID_SHADOW_LIGHT_COUNT) const uint SHADOW_LIGHT_COUNT = 1u; // the first so many lights cast shadows
+layout(constant_id = ID_SHADOW_LIGHT_COUNT) const uint SHADOW_LIGHT_COUNT = 1u; // these come first, and cast shadows
 layout(constant_id = ID_MATERIAL_COUNT) const uint MATERIAL_COUNT = 1u;
 // Whether the scene is copied to variables before any control flow. Mesa's software device loads from
 // a buffer lane by lane inside loops and branches, and once for all lanes outside of them, which makes
 // rays about three times as fast. A GPU would run out of registers.
 layout(constant_id = ID_SCENE_IS_KEPT) const uint SCENE_IS_KEPT = 0u;
 
-// The kinds of shapes there are, a bit each: what is for others is left out.
+// The kinds of shapes in the scene, a bit for each: the code for all other kinds is left out.
 layout(constant_id = ID_SHAPE_KINDS) const uint SHAPE_KINDS = 0u;
 // Whether any shape moves.
 layout(constant_id = ID_SCENE_MOVES) const uint SCENE_MOVES = 0u;
@@ -36,7 +36,7 @@ layout(constant_id = ID_SCENE_IS_SHIFTED) const uint SCENE_IS_SHIFTED = 0u;
 
 // The nodes and shapes of the tree, if there is one, then the shapes of the list: three texels each.
 layout(set = 0, binding = BINDING_RECORDS) uniform usamplerBuffer records;
-// Of the shapes, by their index: scene units a second.
+// The velocity of each shape, by the shape's index, in scene units per second.
 layout(set = 0, binding = BINDING_VELOCITIES) uniform usamplerBuffer velocities;
 layout(constant_id = ID_LIST_BEGIN) const uint LIST_BEGIN = 0u; // the record of the list's first shape
 layout(set = 0, binding = BINDING_MATERIALS, std430) readonly buffer Materials { Material materials[]; };
@@ -50,19 +50,20 @@ void fetch_record(uint index, out uvec4 record[3]) {
     record[2] = texelFetch(records, at + 2);
 }
 
-// The number of a node's children. A shape has the index of its material there, which is smaller.
+// The number of a node's children, from the last word of its first texel. In a shape's record this word is the index of
+// the material, which is too small to reach the upper byte.
 uint child_count(uint about) {
     return about >> 24u;
 }
 
-// Of a node, a shape of size zero.
+// The shape in a record. A node becomes a shape of size zero.
 //
 // Where branches are only masked, a node also goes through the arithmetic of a shape. Its packed bytes would be
 // denormal floats there, and Intel's processors take about a hundred times as long for an operation on one. So
-// what is no float lies where a shape has no float either, or is cleared before it is taken for one.
+// the integers of a node lie where a shape has integers too, or are cleared before they are taken for floats.
 ShapeRecord to_shape(uvec4 record[3]) {
-    // All ones for a shape, zero for a node. Written without a comparison, for a compiler that finds the branch's
-    // own condition here takes it for true and leaves the mask out.
+    // All ones for a shape, zero for a node. This is written without a comparison: a compiler that recognizes the
+    // condition of the branch that the call stands in takes it for true, and leaves the mask out.
     uint if_shape = uint(int(child_count(record[0].w)) - 1 >> 31);
     return ShapeRecord(
         uintBitsToFloat(record[0].xyz), record[0].w, uintBitsToFloat(record[1].xyz & if_shape), record[1].w,
@@ -80,21 +81,21 @@ vec3 fetch_velocity(uint index) {
     return uintBitsToFloat(texelFetch(velocities, int(index)).xyz);
 }
 
-// How many of each are copied: none where the scene is not, for some compilers find room for every element of
-// an array, used or not.
+// How many of each are copied. There are none where the scene is not copied, because some compilers reserve room for
+// every element of an array, whether it is used or not.
 const uint KEPT_SHAPES = SHAPES_END * SCENE_IS_KEPT;
 const uint KEPT_MATERIALS = MATERIAL_COUNT * SCENE_IS_KEPT;
 const uint KEPT_LIGHTS = LIGHT_COUNT * SCENE_IS_KEPT;
 const uint KEPT_MOVING = BOUNDED_SHAPES_END * SCENE_IS_KEPT * SCENE_MOVES;
 
-// The copies. There is one element to spare, for there are no empty arrays.
+// The copies. Each array has one element to spare, because GLSL has no empty arrays.
 ShapeRecord kept_shapes[KEPT_SHAPES + 1u];
 Material kept_materials[KEPT_MATERIALS + 1u];
 Light kept_lights[KEPT_LIGHTS + 1u];
 vec3 kept_velocities[KEPT_MOVING + 1u];
 Environment kept_environment;
 
-// To be called first thing in main().
+// This must be the first call in main().
 void keep_scene() {
     if (SCENE_IS_KEPT == 0u) {
         return;
@@ -111,7 +112,7 @@ vec3 get_velocity(uint i, ShapeRecord shape) { if (SCENE_IS_KEPT == 1u) { return
 Light get_light(uint i) { if (SCENE_IS_KEPT == 1u) { return kept_lights[i]; } return lights[i]; }
 Environment get_environment() { if (SCENE_IS_KEPT == 1u) { return kept_environment; } return environment; }
 
-// The index differs from invocation to invocation.
+// The index differs from invocation to invocation, so the copies are gone through instead of indexed.
 Material get_material(uint index) {
     if (SCENE_IS_KEPT == 0u) {
         return materials[index];

@@ -7,7 +7,7 @@ use crate::interface::shape;
 use crate::scene::{Bvh, Node, Record, SceneRef, Shaded, Shape, Triangle};
 use glam::{DVec3, Vec3};
 
-/// More bounded shapes than these go into a tree: with fewer, trying each is faster.
+/// If there are more bounded shapes than this, they go into a tree. With fewer, testing each shape is faster.
 const MOST_LISTED_SHAPES: usize = 64;
 
 /// A scene's buffers.
@@ -24,18 +24,18 @@ pub struct SceneData {
     pub shape_kinds: u32,
     /// Three corner normals per shape of the tree. Empty if no triangle has normals.
     pub normals: Vec<[[f32; 4]; 3]>,
-    /// Velocity of every shape in scene units a second, of those of the tree first. Empty if nothing moves.
+    /// The velocity of every shape in scene units per second, the shapes of the tree first. Empty if nothing moves.
     pub velocities: Vec<[f32; 4]>,
-    /// Nodes on the longest way from the tree's root to a leaf; 0 where there is no tree.
+    /// The number of nodes on the longest path from the tree's root to a leaf; 0 where there is no tree.
     pub tree_depth: u32,
     pub materials: Vec<Material>,
     /// A bit for each kind of material.
     pub material_kinds: u32,
     /// A bit for each kind of texture that a material has.
     pub texture_kinds: u32,
-    /// Those that cast shadows come first.
+    /// The lights. Those that cast shadows come first.
     pub lights: Vec<Light>,
-    /// A bit for each kind of them.
+    /// A bit for each kind of light.
     pub light_kinds: u32,
     pub shadow_lights: usize,
     pub environment: Environment,
@@ -48,15 +48,16 @@ pub struct SceneData {
 }
 
 impl SceneData {
-    /// Every shape, material and light of a scene. Many bounded shapes, and those with normals at their
-    /// corners, go into a tree, with all that they pass while the shutter is open for so many seconds.
+    /// Every shape, material and light of a scene. The bounded shapes go into a tree if there are many of them or if
+    /// some have normals at their corners. The boxes of the tree hold all positions that a moving shape takes while
+    /// the shutter is open, which is `shutter` seconds.
     pub fn new(scene: &SceneRef, shutter: f32) -> Self {
         let smooth = scene.of_kind::<Triangle>().any(|(triangle, _)| triangle.normals.is_some());
         let bounded = scene.shapes.iter().filter(|of| of.shape.is_bounded()).count();
         Self::with_tree(scene, shutter, smooth || bounded > MOST_LISTED_SHAPES)
     }
 
-    /// Likewise, with the bounded shapes in a tree or in the list.
+    /// Does the same as [`SceneData::new`], but the caller decides whether the bounded shapes go into a tree.
     pub fn with_tree(scene: &SceneRef, shutter: f32, tree: bool) -> Self {
         let origin = scene.middle();
         let shapes = scene.shapes.iter().map(|of| on_device(of, origin));
@@ -112,7 +113,7 @@ impl SceneData {
     }
 }
 
-/// Those of each shape, if any has some. Zero at each corner stands for the triangle's own.
+/// The corner normals of each shape, or nothing if no shape has any. Zeros stand for the triangle's own normal.
 fn corner_normals(shapes: &[Shaded]) -> Vec<[[f32; 4]; 3]> {
     let normals = |of: &Shaded| match &of.shape {
         Shape::Triangle(triangle) => triangle.normals,
@@ -125,10 +126,10 @@ fn corner_normals(shapes: &[Shaded]) -> Vec<[[f32; 4]; 3]> {
     corners.map(|corners| corners.map(|normal| with_zero(floats(normal)))).collect()
 }
 
-/// The distance from the origin within which all of these stay while the shutter is open for so many seconds.
+/// The distance from the origin within which all shapes stay while the shutter is open, which is `shutter` seconds.
 fn reach(shapes: &[Shaded], shutter: f32) -> f32 {
     let moved = |of: &Shaded| of.shape.reach() + f64::from(0.5 * shutter * of.velocity.length());
-    // With what f32 loses of the places of the shapes.
+    // The factor makes up for what f32 loses of the shapes' positions.
     (1.000_01 * shapes.iter().map(moved).fold(0.0, f64::max)) as f32
 }
 
@@ -142,7 +143,7 @@ fn with_zero([x, y, z]: [f32; 3]) -> [f32; 4] {
 }
 
 fn tree_node(node: &Node) -> TreeNode {
-    // As the exponent's bits of an f32.
+    // With the bias that the exponent of an f32 has.
     let [x, y, z] = node.exponents.map(|exponent| (exponent + 127) as u32);
     let [planes_x, planes_y, planes_z] = node.planes.map(|planes| planes.map(u32::from_le_bytes));
     TreeNode {

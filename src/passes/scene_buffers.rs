@@ -1,4 +1,4 @@
-//! A scene on the device, and how much work its rays can be.
+//! A scene's buffers on the device, and upper bounds for the work that its rays take.
 
 use crate::error::{Error, Result};
 use crate::gpu_types::SceneData;
@@ -7,11 +7,11 @@ use crate::vulkan::{Binding, Buffer, Device, TexelBuffer};
 use bytemuck::Pod;
 use std::sync::Arc;
 
-/// With more shapes in lists, materials or lights than these the scene is not copied: what would be
-/// unrolled grows too long.
+/// With more listed shapes, materials or lights than this, invocations do not copy the scene to variables: the unrolled
+/// code would grow too long.
 const MOST_KEPT: usize = 64;
 
-/// The stack of bvh.glsl has so many bits for the index of a record.
+/// As many records as the bits for a record's index can tell apart in the stack of bvh.glsl.
 const MOST_RECORDS: usize = 1 << STACK_INDEX_BITS;
 
 /// The bits of a sample index, which the Sobol sequence goes through, and the searches in an aperture's image.
@@ -29,7 +29,7 @@ impl SceneBuffers {
     /// Uploads a scene.
     ///
     /// # Errors
-    /// [`Error::Limit`] where it has more shapes than a tree can hold.
+    /// [`Error::Limit`] where the scene has more shapes than a tree can hold.
     pub fn new(device: &Arc<Device>, scene: &SceneData) -> Result<Self> {
         let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
         if scene.records.len() > MOST_RECORDS {
@@ -79,17 +79,17 @@ impl SceneBuffers {
         self.constants.iter().find(|(of, _)| *of == id).map_or(0, |(_, value)| *value)
     }
 
-    /// Whether some of its shapes are in a tree.
+    /// Whether some of the scene's shapes are in a tree.
     pub fn has_tree(&self) -> bool {
         self.constant(constant::TREE_DEPTH) > 0
     }
 
-    /// The most rays that one sample can need: at each surface one onwards and one to each light.
+    /// The most rays that one sample can need: for each surface, one that reaches it and one from there to each light.
     pub fn most_rays(&self, max_bounces: u32) -> u32 {
         self.most_surfaces(max_bounces).saturating_mul(1 + self.constant(constant::LIGHT_COUNT))
     }
 
-    /// How often the loops of the trace pass can go round for one sample: over shapes for each ray,
+    /// The most iterations that the loops of the trace pass can make for one sample: over shapes for each ray,
     /// over lights and reflections, and in the sampler.
     pub fn most_loop_steps(&self, max_bounces: u32) -> u64 {
         let of = |id| u64::from(self.constant(id));
@@ -100,7 +100,7 @@ impl SceneBuffers {
         SAMPLER_LOOP_STEPS + u64::from(self.most_surfaces(max_bounces)) * (1 + shapes + lights * (1 + shapes))
     }
 
-    /// What the most steps of a sample come from.
+    /// Explains [`SceneBuffers::most_loop_steps`] in words, for an error message.
     pub fn most_steps_in_words(&self, max_bounces: u32) -> String {
         let of = |id| self.constant(id);
         // The range of the unbounded kinds is the last.

@@ -31,8 +31,8 @@ impl Trace {
         Ok(Self { pipeline, tile: tile.clone() })
     }
 
-    /// From `scene`, seen through `aperture`, into the tracing image `traced`, counting into `counters`. Once some
-    /// pixels have stopped, `list` of `adaptive` holds those to trace.
+    /// The pass traces `scene` through `aperture` into the tracing image `traced`, and adds to `counters`. Once some
+    /// pixels have stopped, the list with the number `list` in `adaptive` holds the pixels to trace.
     pub fn bind(
         &self,
         scene: &SceneBuffers,
