@@ -2,7 +2,8 @@
 
 mod common;
 
-use common::viewer::{Viewer, said};
+use common::viewer::Viewer;
+use common::viewer::log::said;
 use common::{Run, thinlens};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

@@ -1,23 +1,21 @@
 //! The window and its events.
 
+mod frame;
+
 use super::Options;
 use super::clipboard::Clipboard;
 use super::focus::Focus;
-use super::graphics::{Answer, Graphics};
+use super::graphics::Graphics;
 use super::history::History;
 use super::keys::Modifiers;
-use super::loader::Ready;
+use super::memory;
 use super::navigate::Navigate;
 use super::panel::{Panel, State};
 use super::telemetry::{self, Telemetry};
-use super::ui::{Action, Status};
-use super::{keys, memory};
 use crate::error::{Error, Result};
-use crate::renderer::Pace;
 use crate::scene::MAX_EXTENT;
-use crate::vulkan::{AcquiredImage, Instance};
+use crate::vulkan::Instance;
 use imgui_winit_support::{HiDpiMode, WinitPlatform};
-use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use winit::application::ApplicationHandler;
@@ -28,11 +26,6 @@ use winit::raw_window_handle::HasDisplayHandle;
 use winit::window::{Window, WindowId};
 
 const DEFAULT_SIZE: [u32; 2] = [1280, 720];
-/// Tracing time a frame while a control is held, so that it follows the hand: an event waits for the frame
-/// under way and then for its own.
-const DRAGGING_BUDGET: Duration = Duration::from_millis(4);
-/// Otherwise: most of a frame, and the window still answers.
-const RESTING_BUDGET: Duration = Duration::from_millis(30);
 /// imgui takes a frame to notice an event and one more to draw what it did.
 const FRAMES_AFTER_EVENT: u32 = 3;
 /// It takes presses and releases that come at once a frame each: so many are waited for at most.
@@ -44,20 +37,17 @@ const LOOK_AGAIN: Duration = Duration::from_millis(20);
 /// and for this long.
 const MAY_BE_PRESENTING: Duration = Duration::from_secs(5);
 
-/// A device that is lost more often than this is not opened again.
-const MOST_LOSSES: u32 = 3;
-
 /// The application as winit drives it.
 pub(super) struct Viewer {
     options: Options,
     /// Wakes the event loop from another thread.
     waker: EventLoopProxy<()>,
-    open: Option<Open>,
+    open: Option<OpenWindow>,
     instance: Option<Arc<Instance>>,
     error: Option<Error>,
 }
 
-struct Open {
+struct OpenWindow {
     graphics: Graphics,
     platform: WinitPlatform,
     imgui: imgui::Context,
@@ -98,7 +88,7 @@ impl Viewer {
         let display = event_loop.display_handle().map_err(|error| Error::Window(error.to_string()))?;
         let instance = Instance::new(self.options.device.validation, Some(display.as_raw()))?;
         self.instance = Some(Arc::clone(&instance));
-        self.open = Some(Open::new(event_loop, &self.options, &instance, &self.waker)?);
+        self.open = Some(OpenWindow::new(event_loop, &self.options, &instance, &self.waker)?);
         Ok(())
     }
 
@@ -218,7 +208,7 @@ fn report_input(event: &WindowEvent) -> bool {
     true
 }
 
-impl Open {
+impl OpenWindow {
     fn new(
         event_loop: &ActiveEventLoop,
         options: &Options,
@@ -307,230 +297,5 @@ impl Open {
         style.colors[imgui::StyleColor::TitleBg as usize] = [0.12, 0.19, 0.29, 0.95];
         style.colors[imgui::StyleColor::PopupBg as usize] = [0.08, 0.09, 0.11, 0.98];
         style.colors[imgui::StyleColor::PlotHistogram as usize] = [0.20, 0.45, 0.80, 1.0];
-    }
-
-    fn frame(&mut self) -> Result<()> {
-        let Some((image, size)) = self.begin_frame()? else {
-            return Ok(());
-        };
-        let action = self.interact(size);
-        self.apply(action, size)?;
-        self.draw(&image, size)?;
-        self.telemetry.report(&self.panel.settings, self.panel.shown(), self.graphics.progress());
-        self.telemetry.report_memory(|| self.graphics.memory());
-        if let Some(since) = self.unshown_since.take() {
-            let milliseconds = 1e3 * since.elapsed().as_secs_f64();
-            log::trace!("{} {milliseconds:.2} ms after its first event", telemetry::PRESENTED);
-        }
-        Ok(())
-    }
-
-    /// Takes in what the device has done, and gives the image to draw to and its size. None where there is none now.
-    fn begin_frame(&mut self) -> Result<Option<(AcquiredImage, [u32; 2])>> {
-        let size = self.window.inner_size();
-        let Some(size) = self.graphics.fit([size.width, size.height], &mut self.imgui)? else {
-            return Ok(None);
-        };
-        log::trace!("{}", telemetry::FRAME);
-        self.frames_to_draw = self.frames_to_draw.saturating_sub(1);
-        let answer = self.graphics.wait_for_frame(self.dragging)?;
-        if let Some(Answer(picked)) = answer {
-            self.focus.answer(picked, &self.panel.settings.estimator.lens);
-        }
-        let Some(image) = self.graphics.acquire()? else {
-            self.frames_to_draw += 1;
-            return Ok(None);
-        };
-        let io = self.imgui.io_mut();
-        io.update_delta_time(self.last_frame.elapsed());
-        self.last_frame = Instant::now();
-        // A pointer that the system will not move is no reason to stop.
-        if let Err(error) = self.platform.prepare_frame(io, &self.window) {
-            log::warn!("pointer: {error}");
-        }
-        Ok(Some((image, size)))
-    }
-
-    /// Draws the panel, and takes in what the hand did.
-    fn interact(&mut self, size: [u32; 2]) -> Option<Action> {
-        let ui = self.imgui.new_frame();
-        ui.dockspace_over_main_viewport();
-        let loader = &self.graphics.loader;
-        let status = Status {
-            progress: self.graphics.progress(),
-            device: self.graphics.device_name(),
-            picked: self.focus.under_pointer(),
-            diagram: self.focus.diagram(),
-            loading: loader.opening().map(|name| format!("loading {} ...", name.display())),
-        };
-        let modifiers = self.modifiers.take(ui);
-        let action = self.panel.draw(ui, &status).or_else(|| keys::pressed(ui, modifiers));
-        keys::help(ui, &mut self.panel.keys);
-        self.navigate.take_input(ui, modifiers, &mut self.panel.settings.estimator.camera);
-        let lens = &mut self.panel.settings.estimator.lens;
-        self.focus.take_input(ui, modifiers, lens, size);
-        self.focus.advance(lens);
-        self.focus.draw(ui);
-        if self.panel.optics.open {
-            self.focus.draw_pin(ui);
-        }
-        self.dragging = ui.is_any_item_active() || self.focus.is_gliding() || self.navigate.is_moving();
-        if ui.io().want_text_input {
-            self.frames_to_draw = self.frames_to_draw.max(1); // the caret blinks
-        }
-        if action == Some(Action::CopyCommand) {
-            let line = self.panel.settings.command_line("picture.png");
-            log::debug!("{} {line}", telemetry::COPIED);
-            self.panel.say(if self.has_clipboard {
-                "The command line is in the clipboard.".into()
-            } else {
-                format!("there is no clipboard; the command line is: {line}")
-            });
-            ui.set_clipboard_text(line);
-        }
-        self.platform.prepare_render(ui, &self.window);
-        action
-    }
-
-    /// Does what was asked for, and has the renderer follow the settings as soon as it can.
-    fn apply(&mut self, action: Option<Action>, size: [u32; 2]) -> Result<()> {
-        if self.panel.held.is_some() && !self.graphics.holds() {
-            self.panel.held = None;
-            self.graphics.let_go()?;
-            self.panel.say("The held picture is gone: it does not fit the window any more.".into());
-        }
-        if let Some(action) = action {
-            self.act(action)?;
-        }
-        if let Some(name) = self.panel.to_open.take() {
-            log::debug!("{} {}", telemetry::LOADING, name.display());
-            self.graphics.loader.open(&name, &self.panel.settings);
-        }
-        self.panel.settings.estimator.size = size;
-        let mut set = self.take_ready(size);
-        if let Ok(false) = set {
-            set = self.graphics.set(&self.panel.settings);
-        }
-        match set {
-            Ok(true) => {
-                self.panel.accept();
-                if !self.dragging {
-                    self.history.record(&self.panel.state());
-                }
-                return Ok(());
-            }
-            // It is being made ready.
-            Ok(false) => self.panel.accepted.settings.estimator.size = size,
-            Err(error @ Error::DeviceLost { .. }) => return Err(error),
-            // A scene that does not fit, say. The renderer still has what it had.
-            Err(error) => self.panel.refuse(&error),
-        }
-        self.graphics.go_on(self.panel.shown())
-    }
-
-    /// Shows what the other thread has made ready. True where the renderer has it.
-    fn take_ready(&mut self, size: [u32; 2]) -> Result<bool> {
-        let prepared = match self.graphics.loader.next() {
-            None => return Ok(false),
-            Some(Ready::Prepared(prepared)) => prepared?,
-            Some(Ready::Opened { name, opened: Ok(opened) }) => {
-                let (content, prepared) = *opened;
-                log::debug!("{} {}", telemetry::LOADED, name.display());
-                self.panel.show(&name, &content);
-                self.panel.settings.estimator.size = size;
-                self.focus.stop();
-                prepared
-            }
-            Some(Ready::Opened { opened: Err(error @ Error::DeviceLost { .. }), .. }) => return Err(error),
-            Some(Ready::Opened { opened: Err(error), .. }) => {
-                // What is set stays.
-                self.panel.say(error.to_string());
-                return Ok(false);
-            }
-        };
-        // Something may have changed meanwhile.
-        let fits = prepared.fits(&self.panel.settings, true);
-        if fits {
-            self.graphics.set_prepared(&self.panel.settings, &prepared)?;
-        }
-        Ok(fits)
-    }
-
-    /// Goes on with the picture, and shows it with the panel.
-    fn draw(&mut self, image: &AcquiredImage, size: [u32; 2]) -> Result<()> {
-        let finished_before = self.graphics.finished();
-        let budget = if self.dragging { DRAGGING_BUDGET } else { RESTING_BUDGET };
-        let pace = (!self.rests()).then_some(Pace { budget, preview: true });
-        let rays = self.panel.optics.open.then_some(self.panel.optics.rays);
-        let can_ask = self.graphics.answers();
-        let question = if can_ask { self.focus.question(&self.panel.shown().estimator, rays) } else { None };
-        let split = self.panel.held.as_ref().map_or(0.0, |held| held.share * size[0] as f32);
-        self.graphics.draw(image, &mut self.imgui, pace, question, split.round() as u32)?;
-        if self.focus.is_busy() || self.navigate.is_moving() {
-            self.frames_to_draw = self.frames_to_draw.max(1);
-        }
-        if !finished_before && self.graphics.finished() {
-            // What was just recorded is on the screen; the panel's figures come a frame later.
-            self.frames_to_draw = self.frames_to_draw.max(FRAMES_AFTER_EVENT);
-        }
-        Ok(())
-    }
-
-    /// Opens the device again, after it was lost, and goes on with what was shown.
-    fn reopen(&mut self, error: Error) -> Result<()> {
-        self.losses += 1;
-        if self.losses > MOST_LOSSES {
-            return Err(error);
-        }
-        log::warn!("{error}");
-        self.graphics = self.graphics.again(self.panel.shown())?;
-        self.focus.forget();
-        self.panel.held = None;
-        self.panel.say(format!("{error}. It is open again."));
-        self.frames_to_draw = FRAMES_AFTER_EVENT;
-        Ok(())
-    }
-
-    fn act(&mut self, action: Action) -> Result<()> {
-        if matches!(action, Action::Undo | Action::Redo | Action::Reset) {
-            // A change that is still under way ends here.
-            self.focus.stop();
-            self.history.record(&self.panel.state());
-        }
-        match action {
-            Action::Autofocus => {
-                self.focus.send_to(self.panel.settings.estimator.size.map(|extent| 0.5 * extent as f32));
-            }
-            Action::Reset => self.panel.reset(),
-            Action::ResetCamera => self.panel.reset_camera(),
-            Action::Undo => self.history.undo().into_iter().for_each(|state| self.panel.restore(state)),
-            Action::Redo => self.history.redo().into_iter().for_each(|state| self.panel.restore(state)),
-            Action::Compare => self.compare()?,
-            Action::Pause => self.panel.paused ^= true,
-            Action::Optics => self.panel.optics.open ^= true,
-            Action::Keys => self.panel.keys ^= true,
-            // Done where imgui, which has the clipboard, is at hand.
-            Action::CopyCommand => {}
-            Action::SaveScene => self.panel.save_scene(),
-            Action::SavePicture => {
-                let file = self.panel.picture_file();
-                match self.graphics.save(self.panel.shown(), Path::new(&file)) {
-                    Ok(()) => self.panel.picture_is_saved(),
-                    Err(error) => self.panel.say(error.to_string()),
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Holds the picture on the left, or lets it go.
-    fn compare(&mut self) -> Result<()> {
-        if self.panel.held.is_some() {
-            self.panel.held = None;
-            return self.graphics.let_go();
-        }
-        self.graphics.hold()?;
-        self.panel.hold();
-        Ok(())
     }
 }
