@@ -26,9 +26,13 @@ pub fn list_devices() -> Result<()> {
         return Err(Error::NoDevice("no driver is installed".into()));
     }
     for device in devices {
-        let fault = device.unusable.map_or_else(String::new, |fault| format!(", cannot be used: {fault}"));
+        let unusable =
+            device.unusable.map_or_else(String::new, |reason| format!(", cannot be used: {reason}"));
         let uuid = device.uuid.map_or_else(String::new, |uuid| format!(", UUID {uuid}"));
-        say(&format!("{}  {} ({}, {}{uuid}{fault})", device.index, device.name, device.kind, device.driver))?;
+        say(&format!(
+            "{}  {} ({}, {}{uuid}{unusable})",
+            device.index, device.name, device.kind, device.driver
+        ))?;
     }
     Ok(())
 }

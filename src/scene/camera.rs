@@ -96,18 +96,23 @@ impl Camera {
 
     /// Whether a frame can be made of it.
     pub fn has_frame(&self) -> bool {
-        self.fault(["", "", ""]).is_none()
+        self.validate(["", "", ""]).is_ok()
     }
 
-    /// The reason why these values give no frame, if there is one. The names are what the user calls the places.
-    pub fn fault(&self, [eye, look_at, up]: [&str; 3]) -> Option<String> {
+    /// Checks that these values give a frame. The names are what the user calls the two points and the direction.
+    ///
+    /// # Errors
+    /// The reason why they give none.
+    pub fn validate(&self, [eye, look_at, up]: [&str; 3]) -> Result<(), String> {
         let axis = self.eye - self.look_at;
         if axis.length_squared() == 0.0 {
-            return Some(format!("{eye} and {look_at} are the same point"));
+            return Err(format!("{eye} and {look_at} are the same point"));
         }
         let across = self.up.cross(axis.normalize()).length();
-        (across <= 1e-9 * self.up.length() || self.up == DVec3::ZERO)
-            .then(|| format!("{up} points along the line of sight; choose another direction for it"))
+        if across <= 1e-9 * self.up.length() || self.up == DVec3::ZERO {
+            return Err(format!("{up} points along the line of sight; choose another direction for it"));
+        }
+        Ok(())
     }
 }
 

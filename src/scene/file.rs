@@ -1,7 +1,7 @@
 //! From SCENE on the command line to a [`Scene`]: names, files, and errors with a line.
 
 use super::mesh::Mesh;
-use super::toml::{self, fault::Fault, text};
+use super::toml::{self, error::ParseError, text};
 use super::{BUILTINS, Scene, stage};
 use crate::error::{Error, Result};
 use crate::input_file;
@@ -50,7 +50,7 @@ fn load_named(scene: &Path) -> Result<Loaded> {
     match scene.extension() {
         Some(extension) if extension.eq_ignore_ascii_case("toml") => {
             let text = text::decode(input_file::read(scene, MOST_TEXT)?);
-            let text = text.map_err(|(line, message)| fault_in(scene, line, message))?;
+            let text = text.map_err(|(line, message)| error_in(scene, line, message))?;
             let name = scene.file_stem().unwrap_or_default().to_string_lossy();
             let mut loaded = parse(&name, scene, &text)?;
             loaded.files.insert(0, scene.to_path_buf());
@@ -65,14 +65,14 @@ fn load_named(scene: &Path) -> Result<Loaded> {
     }
 }
 
-fn fault_in(file: &Path, line: usize, message: String) -> Error {
+fn error_in(file: &Path, line: usize, message: String) -> Error {
     Error::Scene { file: file.display().to_string(), line, message }
 }
 
 fn parse(name: &str, file: &Path, text: &str) -> Result<Scene> {
-    let at = |fault: Fault| {
-        let before = &text.as_bytes()[..fault.span.start.min(text.len())];
-        fault_in(file, before.iter().filter(|byte| **byte == b'\n').count() + 1, fault.message)
+    let at = |error: ParseError| {
+        let before = &text.as_bytes()[..error.span.start.min(text.len())];
+        error_in(file, before.iter().filter(|byte| **byte == b'\n').count() + 1, error.message)
     };
     let tables = toml::read(text).map_err(at)?;
     let folder = file.parent().unwrap_or(Path::new(""));

@@ -69,11 +69,11 @@ impl Mesh {
         let mut files = vec![path.to_path_buf()];
         let colors = colors(path, &file, &obj, &mut files);
         let mesh = Self { file, files, obj, colors };
-        mesh.warn_of_faults();
+        mesh.warn_of_repairs();
         Ok(mesh)
     }
 
-    fn warn_of_faults(&self) {
+    fn warn_of_repairs(&self) {
         let Self { file, obj, .. } = self;
         for (tally, what) in [
             (&obj.unusable_normals, "normals (vn) without a direction are replaced by computed ones"),
@@ -194,9 +194,10 @@ fn colors(path: &Path, file: &str, obj: &Obj, read: &mut Vec<PathBuf>) -> Vec<Op
         match input_file::read(path, input_file::MOST_BYTES).map(|text| obj::parse_library(&text)) {
             Ok(Ok(part)) => {
                 read.push(path.clone());
-                let (faults, first) = (&part.faults, &part.fault);
-                if faults.count > 0 {
-                    log::warn!("{name}:{}: {first} ({} such colours in the file)", faults.line, faults.count);
+                let (unreadable, first) = (&part.unreadable, &part.first_error);
+                if unreadable.count > 0 {
+                    let (line, count) = (unreadable.line, unreadable.count);
+                    log::warn!("{name}:{line}: {first} ({count} such colours in the file)");
                 }
                 library.extend(part);
             }

@@ -281,27 +281,25 @@ impl Settings {
     /// # Errors
     /// As [`Settings::check`].
     pub fn check_as(&self, called: Called) -> Result<()> {
-        let wrong = |fault: String| Err(Error::OutOfRange(fault));
+        let out_of_range = |message: String| Err(Error::OutOfRange(message));
         for setting in list::own() {
             setting.check(&setting.get(self), called)?;
         }
         let Estimator { camera, aperture, jitter, .. } = &self.estimator;
         if needs_moments(self.view.overlay) && !self.estimator.has_moments() {
-            return wrong("the error is not known where no moments are kept".into());
+            return out_of_range("the error is not known where no moments are kept".into());
         }
         let names = |flags: [&str; 3]| flags.map(|flag| list::setting(flag).name(called));
         let [eye, look_at, up] = &names(["eye", "look-at", "up"]);
-        if let Some(fault) = camera.fault([eye, look_at, up]) {
-            return wrong(format!("the camera has no view: {fault}"));
-        }
+        camera
+            .validate([eye, look_at, up])
+            .or_else(|reason| out_of_range(format!("the camera has no view: {reason}")))?;
         let [blades, cats_eye, image] = &names(["blades", "cats-eye", "aperture-image"]);
-        if let Some(fault) = aperture.fault([blades, cats_eye, image]) {
-            return wrong(fault);
-        }
+        aperture.validate([blades, cats_eye, image]).or_else(out_of_range)?;
         // Chance lands more than its share in a pixel: by 16 standard deviations, never that many.
         let most = if *jitter > DEFAULT_JITTER { MAX_SAMPLES - (1 << 16) } else { MAX_SAMPLES };
         let samples = || list::setting("samples").name(called);
-        in_range(self.samples, [1, most]).or_else(|fault| wrong(format!("{} {fault}", samples())))
+        in_range(self.samples, [1, most]).or_else(|reason| out_of_range(format!("{} {reason}", samples())))
     }
 }
 

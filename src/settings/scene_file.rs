@@ -69,7 +69,7 @@ impl Settings {
             saved.view.exposure_stops = brightness.log2();
         }
         in_range(saved.view.exposure_stops, EXPOSURES)
-            .map_err(|fault| Error::OutOfRange(format!("exposure of the saved scene {fault}")))?;
+            .map_err(|reason| Error::OutOfRange(format!("exposure of the saved scene {reason}")))?;
         Ok(saved)
     }
 }

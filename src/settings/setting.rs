@@ -250,7 +250,7 @@ impl Setting {
     /// # Errors
     /// [`Error::OutOfRange`], with what the user calls it, the value and the range.
     pub fn check(&self, value: &Value, called: Called) -> Result<()> {
-        let fault = match (&self.access, value) {
+        let checked = match (&self.access, value) {
             (Access::Single(_, range) | Access::Seconds(_, range), Value::Single(value)) => {
                 in_range(*value, *range)
             }
@@ -263,14 +263,14 @@ impl Setting {
                 value.to_array().into_iter().try_for_each(|part| in_range(part, *range))
             }
             (Access::Size(_, range), Value::Size([width, height])) => {
-                let of = |what: &'static str| move |fault| format!("has a {what} that {fault}");
+                let of = |what: &'static str| move |reason| format!("has a {what} that {reason}");
                 in_range(*width, *range)
                     .map_err(of("width"))
                     .and_then(|()| in_range(*height, *range).map_err(of("height")))
             }
             _ => Ok(()),
         };
-        fault.map_err(|fault| Error::OutOfRange(format!("{} {fault}", self.name(called))))
+        checked.map_err(|reason| Error::OutOfRange(format!("{} {reason}", self.name(called))))
     }
 
     /// A value of its kind from a text of the command line.

@@ -66,19 +66,19 @@ impl ApertureImage {
     /// # Errors
     /// [`Error::Read`], or [`Error::ApertureImage`] for what is no PNG, too large, or lets no light in.
     pub fn read(path: &Path) -> Result<Self> {
-        let fault = |message: String| Error::ApertureImage { file: path.display().to_string(), message };
+        let error = |message: String| Error::ApertureImage { file: path.display().to_string(), message };
         let mut file = input_file::open(path)?;
         let beginning = input_file::beginning(&mut file);
         let beginning = beginning.map_err(|error| crate::error::cannot_read(path, &error))?;
         let kind = input_file::kind(&beginning);
         if kind != Some(input_file::PNG) {
             let is = kind.map_or_else(String::new, |kind| format!(": it is {kind}"));
-            return Err(fault(format!("it is not a PNG file{is}; {ANEW}")));
+            return Err(error(format!("it is not a PNG file{is}; {ANEW}")));
         }
         let cells = input_file::guarded(|| decode(file));
-        let (size, cells) = cells.unwrap_or_else(|| Err(format!("it is damaged; {ANEW}"))).map_err(fault)?;
+        let (size, cells) = cells.unwrap_or_else(|| Err(format!("it is damaged; {ANEW}"))).map_err(error)?;
         if cells.iter().all(|cell| *cell <= 0.0) {
-            return Err(fault("it is black all over, so no light would come in".into()));
+            return Err(error("it is black all over, so no light would come in".into()));
         }
         Ok(Self(Arc::new(Mask { size, cells, file: path.to_path_buf() })))
     }

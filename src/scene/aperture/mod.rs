@@ -58,15 +58,15 @@ pub struct Aperture {
     /// How far the iris is turned, anticlockwise as seen from behind the camera. At 0 a blade's edge
     /// is at its right.
     pub rotation_degrees: f32,
-    /// How far the blades' edges are bent out: 0 is a polygon, 1 a disc. In between the square of the
-    /// distance from the centre is.
+    /// How far the blades' edges are bent out: 0 is a polygon, 1 a disc. In between, the
+    /// square of an edge's distance from the centre is interpolated linearly.
     pub roundness: f32,
-    /// How often its width goes into its height; the longer of the two is the diameter.
+    /// Height divided by width. The longer of the two is the diameter of the lens.
     pub anamorphic: f32,
     /// Optical vignetting, of a disc: how far the lens's front rim is off its centre, seen from a corner of
     /// the picture, in diameters. What passes both is the overlap of two discs.
     pub cats_eye: f32,
-    /// An image, in whose bright parts light comes in, instead of all that.
+    /// An image that gives the shape instead: light comes in where the image is bright.
     pub image: Option<ApertureImage>,
 }
 
@@ -77,11 +77,16 @@ impl Default for Aperture {
 }
 
 impl Aperture {
-    /// Why it is none, if so. The names are those of blades, cat's eye and image.
-    pub fn fault(&self, [blades, cats_eye, image]: [&str; 3]) -> Option<String> {
+    /// Checks that at most one shape is chosen. The names are what the user calls blades, cat's eye and image.
+    ///
+    /// # Errors
+    /// The reason why these values describe no aperture.
+    pub fn validate(&self, [blades, cats_eye, image]: [&str; 3]) -> Result<(), String> {
         let shapes = [self.blades != 0, self.cats_eye != 0.0, self.image.is_some()];
-        let several = shapes.into_iter().filter(|chosen| *chosen).count() > 1;
-        several.then(|| format!("{blades}, {cats_eye} and {image} are shapes of their own; choose one"))
+        if shapes.into_iter().filter(|chosen| *chosen).count() > 1 {
+            return Err(format!("{blades}, {cats_eye} and {image} are shapes of their own; choose one"));
+        }
+        Ok(())
     }
 
     /// Half the width and half the height of an opening of diameter 2.

@@ -1,6 +1,6 @@
 //! What is seen where nothing is hit.
 
-use crate::scene::toml::fault::{Fault, fault};
+use crate::scene::toml::error::ParseError;
 use crate::scene::toml::number::Rgb;
 use glam::Vec3;
 use serde::Deserialize;
@@ -31,7 +31,9 @@ pub(in crate::scene) struct BackgroundTable {
 }
 
 /// What the table says; black, where there is none.
-pub(in crate::scene) fn background(table: Option<&Spanned<BackgroundTable>>) -> Result<Background, Fault> {
+pub(in crate::scene) fn background(
+    table: Option<&Spanned<BackgroundTable>>,
+) -> Result<Background, ParseError> {
     let Some(span) = table else {
         return Ok(Background::BLACK);
     };
@@ -39,6 +41,6 @@ pub(in crate::scene) fn background(table: Option<&Spanned<BackgroundTable>>) -> 
     match (&table.color, &table.horizon, &table.zenith) {
         (Some(color), None, None) => Ok(Background { horizon: color.0, zenith: color.0 }),
         (None, Some(horizon), Some(zenith)) => Ok(Background { horizon: horizon.0, zenith: zenith.0 }),
-        _ => Err(fault(span, "the background needs either color, or horizon and zenith")),
+        _ => Err(ParseError::at(span, "the background needs either color, or horizon and zenith")),
     }
 }

@@ -1,7 +1,7 @@
 //! Light along parallel lines.
 
 use super::{Light, LightKind, LightTable};
-use crate::scene::toml::fault::Fault;
+use crate::scene::toml::error::ParseError;
 use crate::scene::toml::number::{NonNegative, Rgb, Vector, nonzero, white, yes};
 use glam::Vec3;
 use serde::Deserialize;
@@ -27,7 +27,7 @@ pub(in crate::scene) struct DirectionalTable {
 }
 
 impl LightTable for DirectionalTable {
-    fn light(&self) -> Result<Light, Fault> {
+    fn light(&self) -> Result<Light, ParseError> {
         Ok(Light {
             kind: LightKind::Directional(DirectionalLight { direction: nonzero(&self.direction)? }),
             radiance: self.color.0 * self.radiance.0,

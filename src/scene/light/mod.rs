@@ -8,7 +8,7 @@ mod point;
 pub use background::Background;
 pub(super) use background::{BackgroundTable, background};
 
-use super::toml::fault::Fault;
+use super::toml::error::ParseError;
 use glam::Vec3;
 
 /// Calls a macro with the list of all kinds: a kind, its values, its table, and the name of that in scene files. What
@@ -43,7 +43,7 @@ pub(super) trait LightTable {
     ///
     /// # Errors
     /// Where there is no such light.
-    fn light(&self) -> Result<Light, Fault>;
+    fn light(&self) -> Result<Light, ParseError>;
 }
 
 macro_rules! define_light {

@@ -1,7 +1,7 @@
 //! Light from a point.
 
 use super::{Light, LightKind, LightTable};
-use crate::scene::toml::fault::Fault;
+use crate::scene::toml::error::ParseError;
 use crate::scene::toml::number::{NonNegative, Rgb, Vector, white, yes};
 use glam::DVec3;
 use serde::Deserialize;
@@ -26,7 +26,7 @@ pub(in crate::scene) struct PointTable {
 }
 
 impl LightTable for PointTable {
-    fn light(&self) -> Result<Light, Fault> {
+    fn light(&self) -> Result<Light, ParseError> {
         Ok(Light {
             kind: LightKind::Point(PointLight { position: self.position.0 }),
             radiance: self.color.0 * self.radiance.0,

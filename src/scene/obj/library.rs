@@ -33,8 +33,8 @@ pub(in super::super) struct Library {
     /// The index by a name without what may be a comment, or none where two names become the same.
     short_names: HashMap<Vec<u8>, Option<Vec<u8>>>,
     /// How many colours cannot be read, and what is wrong with the first.
-    pub(in super::super) faults: Tally,
-    pub(in super::super) fault: String,
+    pub(in super::super) unreadable: Tally,
+    pub(in super::super) first_error: String,
 }
 
 impl Paint {
@@ -64,8 +64,8 @@ pub(in super::super) fn parse_library(bytes: &[u8]) -> Result<Library, Foreign> 
                     }
                 }
                 Err(message) => {
-                    if library.faults.note(number) {
-                        library.fault = message;
+                    if library.unreadable.note(number) {
+                        library.first_error = message;
                     }
                 }
             },

@@ -1,7 +1,7 @@
 //! An axis-aligned box.
 
 use super::{Corners, Kind, Shape, ShapeTable};
-use crate::scene::toml::fault::{Fault, fault};
+use crate::scene::toml::error::ParseError;
 use crate::scene::toml::number::{Vector, zero};
 use glam::{DMat3, DVec3, Vec3};
 use serde::Deserialize;
@@ -51,10 +51,10 @@ pub(in crate::scene) struct BoxTable {
 }
 
 impl ShapeTable for BoxTable {
-    fn shape(&self) -> Result<Shape, Fault> {
+    fn shape(&self) -> Result<Shape, ParseError> {
         let shape = Box { lower: self.lower.0, upper: self.upper.get_ref().0 };
         if !shape.lower.cmplt(shape.upper).all() {
-            return Err(fault(&self.upper, "upper must be greater than lower on every axis"));
+            return Err(ParseError::at(&self.upper, "upper must be greater than lower on every axis"));
         }
         Ok(shape.into())
     }

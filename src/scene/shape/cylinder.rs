@@ -1,7 +1,7 @@
 //! The side of a cylinder.
 
 use super::{Corners, Kind, Shape, ShapeTable};
-use crate::scene::toml::fault::{Fault, fault};
+use crate::scene::toml::error::ParseError;
 use crate::scene::toml::number::{Positive, Vector, zero};
 use glam::{DMat3, DVec3, Vec3};
 use serde::Deserialize;
@@ -66,11 +66,14 @@ pub(in crate::scene) struct CylinderTable {
 }
 
 impl ShapeTable for CylinderTable {
-    fn shape(&self) -> Result<Shape, Fault> {
+    fn shape(&self) -> Result<Shape, ParseError> {
         let shape = Cylinder { start: self.start.0, end: self.end.get_ref().0, radius: self.radius.f32() };
         let length = shape.start.distance(shape.end);
         if length < 1e-6 * shape.start.abs().max(shape.end.abs()).max_element().max(1e-20) {
-            return Err(fault(&self.end, "end must be another point than start, and not too near it"));
+            return Err(ParseError::at(
+                &self.end,
+                "end must be another point than start, and not too near it",
+            ));
         }
         Ok(shape.into())
     }

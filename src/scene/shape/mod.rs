@@ -7,7 +7,7 @@ mod plane;
 mod sphere;
 mod triangle;
 
-use super::toml::fault::Fault;
+use super::toml::error::ParseError;
 use glam::{DMat3, DVec3, Vec3};
 use toml::Spanned;
 
@@ -63,7 +63,7 @@ pub(super) trait ShapeTable {
     ///
     /// # Errors
     /// Where there is no such shape.
-    fn shape(&self) -> Result<Shape, Fault>;
+    fn shape(&self) -> Result<Shape, ParseError>;
 
     /// The name of its material.
     fn material(&self) -> &Spanned<String>;

@@ -1,7 +1,7 @@
 //! An infinite plane.
 
 use super::{Corners, Kind, Shape, ShapeTable};
-use crate::scene::toml::fault::Fault;
+use crate::scene::toml::error::ParseError;
 use crate::scene::toml::number::{Vector, nonzero};
 use glam::{DMat3, DVec3, Vec3};
 use serde::Deserialize;
@@ -48,7 +48,7 @@ pub(in crate::scene) struct PlaneTable {
 }
 
 impl ShapeTable for PlaneTable {
-    fn shape(&self) -> Result<Shape, Fault> {
+    fn shape(&self) -> Result<Shape, ParseError> {
         Ok(Plane { point: self.point.0, normal: nonzero(&self.normal)? }.into())
     }
 

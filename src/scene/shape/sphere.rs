@@ -1,7 +1,7 @@
 //! A sphere.
 
 use super::{Corners, Kind, Shape, ShapeTable};
-use crate::scene::toml::fault::Fault;
+use crate::scene::toml::error::ParseError;
 use crate::scene::toml::number::{Positive, Vector, zero};
 use glam::{DMat3, DVec3, Vec3};
 use serde::Deserialize;
@@ -50,7 +50,7 @@ pub(in crate::scene) struct SphereTable {
 }
 
 impl ShapeTable for SphereTable {
-    fn shape(&self) -> Result<Shape, Fault> {
+    fn shape(&self) -> Result<Shape, ParseError> {
         Ok(Sphere { center: self.center.0, radius: self.radius.f32() }.into())
     }
 

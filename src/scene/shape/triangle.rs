@@ -1,7 +1,7 @@
 //! A triangle.
 
 use super::{Corners, Kind, Shape, ShapeTable};
-use crate::scene::toml::fault::{Fault, fault};
+use crate::scene::toml::error::ParseError;
 use crate::scene::toml::number::{Vector, zero};
 use glam::{DMat3, DVec3, Vec3};
 use serde::Deserialize;
@@ -77,12 +77,12 @@ pub(in crate::scene) struct TriangleTable {
 }
 
 impl ShapeTable for TriangleTable {
-    fn shape(&self) -> Result<Shape, Fault> {
+    fn shape(&self) -> Result<Shape, ParseError> {
         let vertices = [0, 1, 2].map(|corner| self.vertices.get_ref()[corner].0);
         let shape = Triangle { vertices, normals: None };
         if !shape.has_area() {
             let message = "the three vertices lie on one line, or too near one another";
-            return Err(fault(&self.vertices, message));
+            return Err(ParseError::at(&self.vertices, message));
         }
         Ok(shape.into())
     }

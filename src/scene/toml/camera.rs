@@ -1,6 +1,6 @@
 //! The table `[camera]`.
 
-use super::fault::{Fault, fault, named};
+use super::error::{ParseError, named};
 use super::number::{Positive, Vector, ranged};
 use crate::scene::{
     ANAMORPHICS, Aperture, ApertureImage, BLADES, CATS_EYES, Camera, CameraModel, DEFAULT_SHUTTER, DIAMETERS,
@@ -60,7 +60,11 @@ pub(super) struct Shot {
 
 impl Shot {
     /// Of a picture that is so large. An image of the aperture lies in `folder`, unless its path says otherwise.
-    pub(super) fn new(table: &Spanned<CameraTable>, size: [u32; 2], folder: &Path) -> Result<Self, Fault> {
+    pub(super) fn new(
+        table: &Spanned<CameraTable>,
+        size: [u32; 2],
+        folder: &Path,
+    ) -> Result<Self, ParseError> {
         let span = table;
         let table = table.get_ref();
         let preset = table.preset.as_ref();
@@ -76,21 +80,20 @@ impl Shot {
         ranged("focal_distance", Some(focal_distance), FOCAL_DISTANCES)?;
         let mut lens = Lens { diameter: f32::NAN, focal_distance: *focal_distance.get_ref() };
         ranged("vfov_degrees", table.vfov_degrees.as_ref(), VFOV_DEGREES)?;
-        let vfov_radians = table.vfov_radians(size).map_err(|message| fault(span, message))?;
+        let vfov_radians = table.vfov_radians(size).map_err(|message| ParseError::at(span, message))?;
         if let Some(preset) = preset {
             preset.apply(&mut camera, &mut model, &mut lens);
         }
         // What is given beside a preset changes it.
         camera.vfov_radians = vfov_radians.unwrap_or(camera.vfov_radians);
         if camera.vfov_radians.is_nan() {
-            return Err(fault(span, NEEDS_VFOV));
+            return Err(ParseError::at(span, NEEDS_VFOV));
         }
         // Of the view's distance, or of a known lens.
-        in_range(camera.vfov_radians.to_degrees(), VFOV_DEGREES)
-            .map_err(|wrong| fault(span, &format!("the vertical field of view in degrees {wrong}")))?;
-        if let Some(message) = camera.fault(["eye", "look_at", "up"]) {
-            return Err(fault(span, &message));
-        }
+        in_range(camera.vfov_radians.to_degrees(), VFOV_DEGREES).map_err(|wrong| {
+            ParseError::at(span, &format!("the vertical field of view in degrees {wrong}"))
+        })?;
+        camera.validate(["eye", "look_at", "up"]).map_err(|message| ParseError::at(span, &message))?;
         if let Some(name) = &table.model {
             model = named(&CameraModel::NAMES, name, "camera model")?;
         }
@@ -100,7 +103,12 @@ impl Shot {
             (None, Some(f_number)) => lens.diameter = camera.diameter_of_f_number(f_number) as f32,
             (None, None) if model == CameraModel::Pinhole && lens.diameter.is_nan() => lens.diameter = 0.0,
             (None, None) if !lens.diameter.is_nan() => {}
-            _ => return Err(fault(span, "the camera needs either lens_diameter, f_number or a preset")),
+            _ => {
+                return Err(ParseError::at(
+                    span,
+                    "the camera needs either lens_diameter, f_number or a preset",
+                ));
+            }
         }
         let hole = ranged("hole_diameter", table.hole_diameter.as_ref(), DIAMETERS)?;
         let diameter = hole.unwrap_or(camera.default_hole_diameter());
@@ -131,15 +139,15 @@ impl CameraTable {
     }
 }
 
-fn aperture(span: &Spanned<CameraTable>, folder: &Path) -> Result<Aperture, Fault> {
+fn aperture(span: &Spanned<CameraTable>, folder: &Path) -> Result<Aperture, ParseError> {
     let table = span.get_ref();
     let read = |file: &Spanned<String>| {
         let image = ApertureImage::read(&folder.join(file.get_ref()));
-        image.map_err(|error| fault(file, &error.to_string()))
+        image.map_err(|error| ParseError::at(file, &error.to_string()))
     };
     if let Some(blades) = &table.blades {
         in_range_or_zero(*blades.get_ref(), BLADES, "a disc")
-            .map_err(|wrong| fault(blades, &format!("blades {wrong}")))?;
+            .map_err(|wrong| ParseError::at(blades, &format!("blades {wrong}")))?;
     }
     let rotation = table.blade_rotation_degrees.as_ref();
     let plain = Aperture::default();
@@ -152,8 +160,8 @@ fn aperture(span: &Spanned<CameraTable>, folder: &Path) -> Result<Aperture, Faul
         cats_eye: ranged("cats_eye", table.cats_eye.as_ref(), CATS_EYES)?.unwrap_or(plain.cats_eye),
         image: table.aperture_image.as_ref().map(read).transpose()?,
     };
-    match aperture.fault(["blades", "cats_eye", "aperture_image"]) {
-        Some(message) => Err(fault(span, &message)),
-        None => Ok(aperture),
-    }
+    aperture
+        .validate(["blades", "cats_eye", "aperture_image"])
+        .map_err(|message| ParseError::at(span, &message))?;
+    Ok(aperture)
 }

@@ -1,6 +1,6 @@
 //! The materials of a scene file, by their names.
 
-use super::fault::{Fault, fault};
+use super::error::ParseError;
 use crate::scene::Material;
 use std::collections::BTreeMap;
 use toml::Spanned;
@@ -18,12 +18,12 @@ pub(super) struct MaterialList {
 
 impl MaterialList {
     /// Adds every material of one kind. A name stands for one material, whatever its kind.
-    pub(super) fn add<T: Into<Material>>(&mut self, tables: Named<T>) -> Result<(), Fault> {
+    pub(super) fn add<T: Into<Material>>(&mut self, tables: Named<T>) -> Result<(), ParseError> {
         for (name, table) in tables {
             let number = u32::try_from(self.materials.len()).unwrap_or(u32::MAX);
             if self.index.insert(name.get_ref().clone(), number).is_some() {
                 let message = format!("there is another material called '{}'", name.get_ref());
-                return Err(fault(&name, &message));
+                return Err(ParseError::at(&name, &message));
             }
             self.materials.push(table.into());
             self.names.push(name.get_ref().clone());
@@ -31,11 +31,11 @@ impl MaterialList {
         Ok(())
     }
 
-    pub(super) fn find(&self, name: &Spanned<String>) -> Result<u32, Fault> {
+    pub(super) fn find(&self, name: &Spanned<String>) -> Result<u32, ParseError> {
         self.index.get(name.get_ref()).copied().ok_or_else(|| {
             let known: Vec<&str> = self.index.keys().map(String::as_str).collect();
             let message = format!("no material '{}'; there are: {}", name.get_ref(), known.join(", "));
-            fault(name, &message)
+            ParseError::at(name, &message)
         })
     }
 }

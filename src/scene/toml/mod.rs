@@ -2,7 +2,7 @@
 //! `[[directional]]`. Unknown keys are errors.
 
 mod camera;
-pub(super) mod fault;
+pub(super) mod error;
 mod material_list;
 mod mesh;
 pub(super) mod number;
@@ -15,7 +15,7 @@ use super::material::{self, material_kinds};
 use super::shape::{self, ShapeTable, shape_kinds};
 use super::{Light, Scene, Shaded, View};
 use camera::{CameraTable, Shot};
-use fault::{Fault, fault};
+use error::ParseError;
 use glam::Vec3;
 use material_list::{MaterialList, Named};
 use mesh::MeshTable;
@@ -26,7 +26,7 @@ use toml::Spanned;
 use view::{ViewTable, view};
 
 /// Reads the text of a scene file.
-pub(super) fn read(text: &str) -> Result<SceneFile, Fault> {
+pub(super) fn read(text: &str) -> Result<SceneFile, ParseError> {
     words::read(text)
 }
 
@@ -62,7 +62,7 @@ macro_rules! define_scene_file {
 
         impl SceneFile {
             /// The shapes, kind by kind.
-            fn shapes(&self, materials: &MaterialList) -> Result<Vec<Shaded>, Fault> {
+            fn shapes(&self, materials: &MaterialList) -> Result<Vec<Shaded>, ParseError> {
                 let mut shapes = Vec::new();
                 $(for table in &self.$shape_name {
                     let (shape, material) = (table.shape()?, materials.find(table.material())?);
@@ -72,13 +72,13 @@ macro_rules! define_scene_file {
             }
 
             /// The lights, kind by kind.
-            fn lights(&self) -> Result<Vec<Light>, Fault> {
+            fn lights(&self) -> Result<Vec<Light>, ParseError> {
                 let lights = std::iter::empty()$(.chain(self.$light_name.iter().map(LightTable::light)))+;
                 lights.collect()
             }
 
             /// The materials, kind by kind, which are taken out of the tables.
-            fn take_materials(&mut self) -> Result<MaterialList, Fault> {
+            fn take_materials(&mut self) -> Result<MaterialList, ParseError> {
                 let mut list = MaterialList::default();
                 $(list.add(std::mem::take(&mut self.$material_name))?;)+
                 Ok(list)
@@ -108,7 +108,7 @@ fn default_max_bounces() -> Count {
 
 impl SceneFile {
     /// Files that the scene names lie in `folder`, unless their paths say otherwise.
-    pub(super) fn into_scene(mut self, name: &str, folder: &Path) -> Result<Scene, Fault> {
+    pub(super) fn into_scene(mut self, name: &str, folder: &Path) -> Result<Scene, ParseError> {
         let size = [self.size[0].0, self.size[1].0];
         let Shot { camera, model, lens, hole, aperture, shutter, iso } =
             Shot::new(&self.camera, size, folder)?;
@@ -145,7 +145,7 @@ impl SceneFile {
         for (table, material) in self.mesh.iter().zip(of_meshes) {
             table
                 .add_to(&mut scene, folder, material)
-                .map_err(|error| fault(&table.file, &error.to_string()))?;
+                .map_err(|error| ParseError::at(&table.file, &error.to_string()))?;
         }
         Ok(scene)
     }

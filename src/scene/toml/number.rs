@@ -1,6 +1,6 @@
 //! Numbers of the scene file, checked as they are read, so that an error names their line.
 
-use super::fault::{Fault, fault};
+use super::error::ParseError;
 use crate::scene::{MAX_BOUNCES, MAX_EXTENT, MAX_LENGTH, MIN_LENGTH, PLACES, in_range};
 use glam::{DVec3, Vec3};
 use serde::Deserialize;
@@ -32,13 +32,17 @@ pub(in crate::scene) struct Extent(pub(in crate::scene) u32);
 pub(in crate::scene) struct Count(pub(in crate::scene) u32);
 
 /// A number that may be left out, held against its range.
-pub(super) fn ranged<T>(key: &str, number: Option<&Spanned<T>>, range: [T; 2]) -> Result<Option<T>, Fault>
+pub(super) fn ranged<T>(
+    key: &str,
+    number: Option<&Spanned<T>>,
+    range: [T; 2],
+) -> Result<Option<T>, ParseError>
 where
     T: Copy + PartialOrd + Display + LowerExp,
 {
     let Some(number) = number else { return Ok(None) };
     let value = *number.get_ref();
-    in_range(value, range).map_err(|wrong| fault(number, &format!("{key} {wrong}")))?;
+    in_range(value, range).map_err(|wrong| ParseError::at(number, &format!("{key} {wrong}")))?;
     Ok(Some(value))
 }
 
@@ -48,9 +52,9 @@ pub(in crate::scene) fn zero() -> Vector {
 }
 
 /// A vector that must have a direction.
-pub(in crate::scene) fn nonzero(vector: &Spanned<Vector>) -> Result<Vec3, Fault> {
+pub(in crate::scene) fn nonzero(vector: &Spanned<Vector>) -> Result<Vec3, ParseError> {
     match vector.get_ref().f32() {
-        Vec3::ZERO => Err(fault(vector, "this vector must not be zero")),
+        Vec3::ZERO => Err(ParseError::at(vector, "this vector must not be zero")),
         other => Ok(other),
     }
 }

@@ -1,6 +1,6 @@
 //! The table `[view]`.
 
-use super::fault::{Fault, named};
+use super::error::{ParseError, named};
 use super::number::ranged;
 use crate::scene::{EXPOSURES, Overlay, TOLERANCES, View};
 use serde::Deserialize;
@@ -16,7 +16,7 @@ pub(super) struct ViewTable {
 }
 
 /// How the picture is shown at first.
-pub(super) fn view(table: Option<&Spanned<ViewTable>>) -> Result<View, Fault> {
+pub(super) fn view(table: Option<&Spanned<ViewTable>>) -> Result<View, ParseError> {
     let plain = View::default();
     let Some(table) = table.map(Spanned::get_ref) else {
         return Ok(plain);

@@ -1,7 +1,7 @@
 //! What is wrong with the text of a scene file, in the words of the format: the crates that read TOML and
 //! fill structs know of maps, sequences and fields only.
 
-use super::fault::Fault;
+use super::error::ParseError;
 use crate::scene::light::LIGHT_NAMES;
 use crate::scene::material::MATERIAL_NAMES;
 use crate::scene::shape::SHAPE_NAMES;
@@ -42,7 +42,7 @@ fn top() -> impl Iterator<Item = (&'static str, Form)> {
 }
 
 /// Reads a text into what the format's structs say.
-pub(super) fn read<'de, T: Deserialize<'de>>(text: &'de str) -> Result<T, Fault> {
+pub(super) fn read<'de, T: Deserialize<'de>>(text: &'de str) -> Result<T, ParseError> {
     let (document, errors) = DeTable::parse_recoverable(text);
     let wrong_table = wrong_table(document.get_ref());
     if let Some(error) = errors.first() {
@@ -50,8 +50,8 @@ pub(super) fn read<'de, T: Deserialize<'de>>(text: &'de str) -> Result<T, Fault>
         let repeated = error.message().starts_with("duplicate key");
         return Err(wrong_table.filter(|_| repeated).unwrap_or_else(|| not_toml(text, error)));
     }
-    if let Some(fault) = wrong_table {
-        return Err(fault);
+    if let Some(error) = wrong_table {
+        return Err(error);
     }
     let tables = T::deserialize(toml::de::Deserializer::from(document));
     tables.map_err(|error| not_a_scene(text, &error))
@@ -72,22 +72,22 @@ fn header(name: &str) -> String {
 }
 
 /// The first table that is written another way than its kind is, or that there is none of.
-fn wrong_table(document: &DeTable<'_>) -> Option<Fault> {
-    let faults = document.iter().filter_map(|(key, value)| {
+fn wrong_table(document: &DeTable<'_>) -> Option<ParseError> {
+    let errors = document.iter().filter_map(|(key, value)| {
         let name = key.get_ref().as_ref();
         let (span, message) = match form_of(name) {
             None => (key.span(), unknown_table(name, value.get_ref())),
             Some(form) => {
-                table_fault(name, form, value).map(|(span, message)| (span.unwrap_or(key.span()), message))?
+                table_error(name, form, value).map(|(span, message)| (span.unwrap_or(key.span()), message))?
             }
         };
-        Some(Fault { span, message })
+        Some(ParseError { span, message })
     });
-    faults.min_by_key(|fault| fault.span.start)
+    errors.min_by_key(|error| error.span.start)
 }
 
 /// What is wrong with a table, and where, if not at its name.
-fn table_fault(
+fn table_error(
     name: &str,
     form: Form,
     value: &Spanned<DeValue<'_>>,
@@ -118,7 +118,7 @@ fn table_fault(
                 return whole(format!("write {right}, for a material needs a name that shapes call it by"));
             }
             named.iter().find_map(|(key, material)| match material.get_ref() {
-                DeValue::Table(keys) => checker_fault(keys),
+                DeValue::Table(keys) => checker_error(keys),
                 _ => Some((
                     Some(key.span()),
                     format!(
@@ -136,7 +136,7 @@ fn table_fault(
 }
 
 /// A list of what a checker's table has would be taken for it.
-fn checker_fault(keys: &DeTable<'_>) -> Option<(Option<std::ops::Range<usize>>, String)> {
+fn checker_error(keys: &DeTable<'_>) -> Option<(Option<std::ops::Range<usize>>, String)> {
     let color = keys.iter().find(|(key, _)| key.get_ref() == "color").map(|(_, value)| value)?;
     let list = color.get_ref().as_array()?;
     list.iter()
@@ -231,7 +231,7 @@ fn place_in<'a>(value: &'a Spanned<DeValue<'a>>, at: usize) -> Option<Place<'a>>
 }
 
 /// A text that is TOML, but not what the format's structs want.
-fn not_a_scene(text: &str, error: &toml::de::Error) -> Fault {
+fn not_a_scene(text: &str, error: &toml::de::Error) -> ParseError {
     let span = error.span().unwrap_or(0..0);
     let (document, _) = DeTable::parse_recoverable(text);
     let Place { keys, value } =
@@ -263,7 +263,7 @@ fn not_a_scene(text: &str, error: &toml::de::Error) -> Fault {
         let words = message.replace('\n', "; ");
         key.map_or(words.clone(), |key| format!("{key} {words}"))
     };
-    Fault { span, message }
+    ParseError { span, message }
 }
 
 /// A table by its header.
@@ -280,7 +280,7 @@ fn titled(keys: &[&str]) -> String {
 }
 
 /// A text that is no TOML.
-fn not_toml(text: &str, error: &toml::de::Error) -> Fault {
+fn not_toml(text: &str, error: &toml::de::Error) -> ParseError {
     let message = error.message();
     if message.contains("recurs") {
         // Where is not said: at the deepest line.
@@ -293,7 +293,7 @@ fn not_toml(text: &str, error: &toml::de::Error) -> Fault {
         let at =
             deepest.reduce(|best, line| if line.0 > best.0 { line } else { best }).map_or(0, |line| line.1);
         let message = "tables or lists are nested too deep here; a scene nests three deep at most".into();
-        return Fault { span: at..at, message };
+        return ParseError { span: at..at, message };
     }
     let span = error.span().unwrap_or(0..0);
     let (end, word) = word_at(text, span.start);
@@ -326,7 +326,7 @@ fn not_toml(text: &str, error: &toml::de::Error) -> Fault {
         _ if message.starts_with("invalid boolean") => "write true or false, in small letters".into(),
         other => format!("this is no TOML: {}", other.replace('\n', "; ")),
     };
-    Fault { span, message }
+    ParseError { span, message }
 }
 
 /// Where the word ends that stands there between blanks, commas and brackets, and the word.
