@@ -1,6 +1,6 @@
 //! The system's clipboard, for imgui.
 
-/// Where there is none, nothing is copied.
+/// Copies nothing if the system has no clipboard.
 pub(super) struct Clipboard(Option<arboard::Clipboard>);
 
 impl Clipboard {

@@ -1,78 +1,78 @@
-//! The optics of one place of the picture as points and lines, for a drawing of them.
+//! The light paths of one pixel as points and lines, for a drawing of the optics.
 //!
-//! Points are in the camera's frame and in scene units: right, up, and the depth in front of the lens, so that
-//! what is behind it, on the film's side, has a negative one. K. Suffern, *Ray Tracing from the Ground Up*,
-//! chapter 10; the image side by the equation of the thin lens, `1 / f = 1 / v + 1 / F`.
+//! Points are in the camera's frame, in scene units: right, up, and the depth in front of the lens. Depth is negative
+//! behind the lens, on the side of the film. K. Suffern, *Ray Tracing from the Ground Up*,
+//! chapter 10; the side of the film follows from the equation of the thin lens, `1 / f = 1 / v + 1 / F`.
 
 use crate::renderer::{LensRay, Picked};
 use crate::scene::CameraModel;
 use crate::settings::Estimator;
 use glam::DVec3;
 
-/// The view plane is drawn at this share of the way to what is looked at: only angles count there.
+/// The view plane is drawn at this fraction of the distance to what is looked at. Only angles matter on it.
 const VIEW_PLANE_SHARE: f64 = 0.25;
-/// The drawing goes this far beyond what is seen and the focal plane, as a factor.
+/// The drawing extends beyond what is seen and beyond the focal plane by this factor.
 const BEYOND: f64 = 1.2;
-/// Where one of them is farther than so many times the other, the drawing ends before it.
+/// If one of them is more than this many times as far as the other, the drawing ends before it.
 const MOST_APART: f64 = 4.0;
 
 /// A line of the drawing.
 pub type Line = [DVec3; 2];
 
-/// What is drawn of the scene's side.
+/// What is drawn in front of the lens.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagram {
-    /// Half the opening's width and height; 0 for a pinhole.
+    /// Half the width and half the height of the aperture; 0 for a pinhole.
     pub half_opening: [f64; 2],
-    /// The depth to which the drawing goes.
+    /// The depth at which the drawing ends.
     pub reach: f64,
     /// The depth at which the view plane is drawn.
     pub view_plane: f64,
-    /// Half the width and height that the picture has there.
+    /// Half the width and half the height of the picture on the view plane.
     pub half_picture: [f64; 2],
-    /// Where the film position lies on the view plane: q.
+    /// The sample point on the view plane: q.
     pub q: DVec3,
-    /// The depth of the focal plane, and where the centre ray meets it: p. None without a lens.
+    /// The depth of the focal plane, and the point p where the centre ray meets it. `None` without a lens.
     pub focus: Option<(f64, DVec3)>,
-    /// What the centre ray meets, if anything.
+    /// The point where the centre ray hits a surface, if it hits one.
     pub hit: Option<DVec3>,
     /// The ray through the centre of the lens.
     pub centre: Line,
-    /// Primary rays from all over the lens, upwards: for the side view.
+    /// Primary rays from points of the lens on its vertical diameter, from bottom to top: for the side view.
     pub fan_up: Vec<Line>,
-    /// Primary rays from all over the lens, from left to right: for the top view.
+    /// Primary rays from points of the lens on its horizontal diameter, from left to right: for the top view.
     pub fan_across: Vec<Line>,
-    /// Those of the pixel's first samples.
+    /// The primary rays of the pixel's first samples.
     pub samples: Vec<Line>,
     /// What happens behind the lens.
     pub image: ImageSide,
 }
 
-/// What is drawn of the film's side.
+/// What is drawn behind the lens.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImageSide {
-    /// How far behind the lens the film stands.
+    /// The distance of the film behind the lens.
     pub film_distance: f64,
-    /// The film position itself, on the film: p'.
+    /// The sample point on the film: p'.
     pub p: DVec3,
-    /// Light from what is seen, through points of the lens, to the film: lines that start on the lens, on its
-    /// rim first. They cross where the sharp picture of it would be.
+    /// Light from the visible point, through points on the vertical diameter of the lens, to the film. The lines start on
+    /// the lens. They cross where the sharp image of the point would be.
     pub light_up: Vec<Line>,
-    /// Light as in `light_up`, but through points of the lens from left to right.
+    /// Light as in `light_up`, but through points on the horizontal diameter.
     pub light_across: Vec<Line>,
-    /// How far behind the lens they cross, where they do.
+    /// The distance behind the lens at which the lines cross, if they do.
     pub crossing: Option<f64>,
-    /// The circle of confusion that they make on the film, in scene units: its diameter.
+    /// The diameter of the circle of confusion on the film, in scene units.
     pub blur: f64,
-    /// The same in pixels.
+    /// The diameter of the circle of confusion in pixels.
     pub blur_pixels: f64,
 }
 
 impl Diagram {
-    /// Of what the device traced, and the camera that it was traced with.
+    /// Makes the diagram of what the device traced with this camera.
     pub fn new(estimator: &Estimator, picked: &Picked) -> Self {
         let camera = &estimator.camera;
-        // The centre of the lens, where the device has it.
+        // The centre of the lens as the device computes it.
         let (frame, eye) = (camera.frame(), picked.rays[0].origin);
         let turned =
             |vector: DVec3| DVec3::new(vector.dot(frame.u()), vector.dot(frame.v()), -vector.dot(frame.w()));
@@ -88,14 +88,14 @@ impl Diagram {
             .into_iter()
             .flatten()
             .fold((f64::INFINITY, 0.0_f64), |(near, far), depth| (near.min(depth), far.max(depth)));
-        // With nothing in sight and no lens, any scale is as good.
+        // If nothing is hit and there is no lens, any scale will do.
         let reach =
             if near.is_finite() { BEYOND * far.min(MOST_APART * near) } else { camera.film_distance() };
         let view_plane = VIEW_PLANE_SHARE * if near.is_finite() { near } else { reach };
 
         let line = |ray: &LensRay| -> Line {
             let (origin, direction) = (local(ray.origin), turned(ray.direction));
-            // Beyond the drawing's edge, which may cut a line a little later than its depth.
+            // The line ends beyond the edge of the drawing, because the edge may cut it a little behind its own depth.
             let end = (2.0 * reach / direction.z.max(1e-9)).min(ray.distance);
             [origin, origin + end * direction]
         };
@@ -103,7 +103,7 @@ impl Diagram {
         let [width, height] = estimator.size.map(f64::from);
         let half_height = (0.5 * camera.vfov_radians).tan() * view_plane;
         let (fan_up, fan_across) = (lines(picked.fan_up()), lines(picked.fan_across()));
-        // The fans end on the rim.
+        // The outermost rays start on the rim.
         let half_opening =
             [fan_across.last().map_or(0.0, |ray| ray[0].x), fan_up.last().map_or(0.0, |ray| ray[0].y)];
         let mut diagram = Self {
@@ -127,14 +127,14 @@ impl Diagram {
         diagram
     }
 
-    /// Follows light from `hit` through the points of the lens where the fans start.
+    /// Follows light from `hit` through the points of the lens where the primary rays start.
     fn take_light(&mut self, hit: DVec3, pixels_per_unit: f64) {
         let v = self.image.film_distance;
-        // A hole has no power: light goes straight on.
+        // A hole does not refract: light goes straight on.
         let power = self.focus.map_or(0.0, |(focal_distance, _)| v.recip() + focal_distance.recip());
         let crossing = (power - hit.z.recip()).recip();
         let crossing = (crossing > 0.0).then_some(crossing);
-        // A little beyond the film, or beyond the crossing where that is near.
+        // The lines end a little beyond the film, or beyond the crossing if that is near.
         let end = 1.08 * crossing.filter(|at| *at < 1.7 * v).map_or(v, |at| at.max(v));
         let refracted = |lens: DVec3, behind: f64| {
             let slope = (lens - hit).truncate() / hit.z - lens.truncate() * power;
@@ -142,7 +142,7 @@ impl Diagram {
         };
         let light = |fan: &[Line]| fan.iter().map(|ray| [ray[0], refracted(ray[0], end)]).collect();
         (self.image.light_up, self.image.light_across) = (light(&self.fan_up), light(&self.fan_across));
-        // As wide as the wider of the two.
+        // The circle is as wide as the wider of the two fans of light.
         let radius = self.half_opening[0].max(self.half_opening[1]);
         let rim = |side: f64| refracted(DVec3::new(0.0, side * radius, 0.0), v).y;
         self.image.blur = (rim(1.0) - rim(-1.0)).abs();

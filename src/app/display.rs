@@ -1,11 +1,11 @@
-//! The event loop, on a display that answers.
+//! The event loop, on a display that responds.
 
 use winit::error::EventLoopError;
 use winit::event_loop::EventLoop;
 
-/// An event loop. Variables of Wayland outlive its compositor, in ssh, tmux and containers: where nothing
-/// answers behind them, X11 is used, if there is one. winit would go by the variables alone, and makes no second
-/// event loop.
+/// Makes the event loop. In ssh, tmux and containers, the environment variables of Wayland can outlive the compositor. If
+/// no compositor responds, this uses X11, if there is one. winit looks at the variables alone, and refuses to make a
+/// second event loop after the first one has failed.
 pub(super) fn event_loop() -> Result<EventLoop<()>, EventLoopError> {
     let mut builder = EventLoop::builder();
     #[cfg(any(
@@ -15,7 +15,7 @@ pub(super) fn event_loop() -> Result<EventLoop<()>, EventLoopError> {
         target_os = "netbsd",
         target_os = "openbsd"
     ))]
-    if wayland::is_named() && is_set("DISPLAY") && !wayland::answers() {
+    if wayland::is_named() && is_set("DISPLAY") && !wayland::responds() {
         log::info!("no Wayland compositor answers; the window is opened by X11");
         winit::platform::x11::EventLoopBuilderExtX11::with_x11(&mut builder);
     }
@@ -36,21 +36,23 @@ mod wayland {
     use std::path::{Path, PathBuf};
     use std::time::Duration;
 
-    /// A compositor takes milliseconds; one that is busy takes longer.
+    /// A compositor responds within milliseconds, or later if it is busy.
     const PATIENCE: Duration = Duration::from_secs(3);
 
     pub(super) fn is_named() -> bool {
         is_set("WAYLAND_DISPLAY") || is_set("WAYLAND_SOCKET")
     }
 
-    /// Whether a compositor does.
-    pub(super) fn answers() -> bool {
-        // An open socket that was handed over goes first, and is used up by the first who asks.
+    /// Whether a compositor responds.
+    pub(super) fn responds() -> bool {
+        // A socket that was passed on already open takes precedence. It can be used only once, so it is not tried here.
         if let Some(number) = std::env::var_os("WAYLAND_SOCKET").filter(|number| !number.is_empty()) {
             let socket = std::fs::metadata(Path::new("/dev/fd").join(number));
             return socket.is_ok_and(|is| is.file_type().is_socket());
         }
-        socket().and_then(|path| UnixStream::connect(path).ok()).is_some_and(|stream| greets(stream).is_ok())
+        socket()
+            .and_then(|path| UnixStream::connect(path).ok())
+            .is_some_and(|stream| synchronize(stream).is_ok())
     }
 
     fn socket() -> Option<PathBuf> {
@@ -61,9 +63,9 @@ mod wayland {
         Some(PathBuf::from(std::env::var_os("XDG_RUNTIME_DIR")?).join(name))
     }
 
-    /// Asks the display, object 1, to say when it has done all that it was asked for, as object 2: its request
-    /// `sync`, number 0 (the Wayland protocol, wire format).
-    fn greets(mut stream: UnixStream) -> std::io::Result<()> {
+    /// Sends the request `sync` (number 0) to the display (object 1): it creates a callback (object 2), which the
+    /// compositor signals once it has handled all requests before it. See "Wire Format" in the Wayland protocol.
+    fn synchronize(mut stream: UnixStream) -> std::io::Result<()> {
         stream.set_read_timeout(Some(PATIENCE))?;
         stream.set_write_timeout(Some(PATIENCE))?;
         let sync: [u32; 3] = [1, 12 << 16, 2];

@@ -1,5 +1,5 @@
-//! What the device is asked about: the pixel under the pointer, the one that the optics are drawn of, and the
-//! one to focus on; and the focal plane on its way there.
+//! Questions to the device about three pixels: the one under the pointer, the one whose optics are drawn, and the one to
+//! focus on. Also moves the focal plane to what was chosen.
 
 use super::diagram::Diagram;
 use super::keys::Modifiers;
@@ -10,29 +10,29 @@ use crate::settings::Estimator;
 use imgui::{Key, MouseButton, Ui};
 use std::time::{Duration, Instant};
 
-/// How long the focal plane takes to where it is sent: the eye can follow.
+/// How long the focal plane takes to reach a new distance: long enough that the eye can follow.
 const GLIDE: Duration = Duration::from_millis(300);
-/// How long the place is marked.
+/// How long the mark stays on the place that is brought into focus.
 const MARK: Duration = Duration::from_millis(1200);
-/// What a notch of the wheel does to the focal distance.
+/// One notch of the wheel multiplies or divides the focal distance by this.
 const NUDGE: f32 = 1.02;
-/// A click that moves no farther, in points, is no drag.
+/// A press and release that are at most this far apart, in points, are a click and not a drag.
 const STILL: f32 = 3.0;
-/// Points across the mark.
+/// The radius of the mark, in points.
 const MARK_RADIUS: f32 = 13.0;
 
-/// What the pointer has asked for.
+/// What the user asked for with the pointer, and the answers of the device.
 #[derive(Default)]
 pub(super) struct Focus {
-    /// Where the pointer is, if it is over the picture.
+    /// The position of the pointer, if it is over the picture.
     pointer: Option<[f32; 2]>,
-    /// What is to be brought into focus.
+    /// The place to bring into focus, until the device has answered.
     wanted: Option<[f32; 2]>,
-    /// The pixel whose optics are drawn, as a share of the picture's size; none is the middle.
+    /// The pixel whose optics are drawn, as a fraction of the picture's size. `None` is the middle.
     pinned: Option<[f32; 2]>,
-    /// Where the left button went down, while it is.
+    /// Where the left button was pressed, while it is held.
     pressed: Option<[f32; 2]>,
-    /// The last question and what it is about, while there is no answer.
+    /// The question that is not answered yet, and the settings of the picture that it is about.
     asked: Option<(Question, Estimator)>,
     /// The last answers.
     under_pointer: Option<Answer<Picked>>,
@@ -41,7 +41,7 @@ pub(super) struct Focus {
     mark: Option<Mark>,
 }
 
-/// What is known, and of what.
+/// An answer, with its question and the settings of the picture that it is about.
 struct Answer<T> {
     known: T,
     question: Question,
@@ -67,12 +67,12 @@ struct Mark {
 }
 
 impl Focus {
-    /// Takes in what mouse and keys did over the picture.
+    /// Handles mouse and keys over the picture.
     pub(super) fn take_input(&mut self, ui: &Ui, modifiers: Modifiers, lens: &mut Lens, size: [u32; 2]) {
         let io = ui.io();
         let over_picture = !io.want_capture_mouse && ui.is_mouse_pos_valid(io.mouse_pos);
         let scale = io.display_framebuffer_scale;
-        // The pointer names a pixel, and the middle of it is what is asked for.
+        // The question is about the middle of the pixel under the pointer.
         self.pointer =
             over_picture.then(|| [0, 1].map(|axis| (io.mouse_pos[axis] * scale[axis]).floor() + 0.5));
         let Some(pointer) = self.pointer else {
@@ -98,18 +98,18 @@ impl Focus {
         }
     }
 
-    /// Brings this place of the picture into focus, in physical pixels.
+    /// Brings a place of the picture into focus. The position is in physical pixels.
     pub(super) fn send_to(&mut self, position: [f32; 2]) {
         self.wanted = Some(position);
     }
 
-    /// Leaves the focal plane where it is.
+    /// Stops the focal plane where it is.
     pub(super) fn stop(&mut self) {
         (self.wanted, self.glide) = (None, None);
     }
 
-    /// What to ask the device of this picture now, if anything. `rays`: how many are drawn of the pinned
-    /// pixel's optics.
+    /// The next question to the device about this picture, if there is one. `rays` is the number of rays in the drawing of
+    /// the optics, if the drawing is open.
     pub(super) fn question(&mut self, estimator: &Estimator, rays: Option<u32>) -> Option<Question> {
         if self.asked.is_some() {
             return None;
@@ -130,12 +130,12 @@ impl Focus {
         Some(question)
     }
 
-    /// What was asked is not answered any more.
+    /// Forgets the pending question: a lost device does not answer it.
     pub(super) fn forget(&mut self) {
         self.asked = None;
     }
 
-    /// What the device says. None: it could not tell.
+    /// Handles the answer of the device. `None` means that it could not answer.
     pub(super) fn answer(&mut self, picked: Option<Picked>, lens: &Lens) {
         let (Some((question, estimator)), Some(picked)) = (self.asked.take(), picked) else {
             return;
@@ -163,12 +163,12 @@ impl Focus {
         self.under_pointer = Some(Answer { known: picked, question, estimator });
     }
 
-    /// Moves the focal plane on.
+    /// Moves the focal plane on, for the time that has passed.
     pub(super) fn advance(&mut self, lens: &mut Lens) {
         if let Some(Glide { from, to, since }) = &self.glide {
             let t = (since.elapsed().as_secs_f32() / GLIDE.as_secs_f32()).min(1.0);
             let eased = t * t * (3.0 - 2.0 * t);
-            // Even steps of the inverse are even steps of the blur.
+            // The blur is linear in the inverse of the distance, so equal steps of the inverse look even.
             lens.focal_distance =
                 if t < 1.0 { (from.recip() + (to.recip() - from.recip()) * eased).recip() } else { *to };
             if t == 1.0 {
@@ -180,7 +180,7 @@ impl Focus {
         }
     }
 
-    /// Marks the place that was sent for.
+    /// Draws the mark on the place that is brought into focus.
     pub(super) fn draw(&self, ui: &Ui) {
         let Some(Mark { at, since, found }) = &self.mark else {
             return;
@@ -199,23 +199,23 @@ impl Focus {
         }
     }
 
-    /// Whether another frame is needed for it.
+    /// Whether another frame is needed.
     pub(super) fn is_busy(&self) -> bool {
         self.asked.is_some() || self.wanted.is_some() || self.glide.is_some() || self.mark.is_some()
     }
 
-    /// Whether the focal plane is on its way.
+    /// Whether the focal plane is moving.
     pub(super) fn is_gliding(&self) -> bool {
         self.glide.is_some()
     }
 
-    /// What lies under the pointer, while it is over the picture.
+    /// What is under the pointer, while the pointer is over the picture.
     pub(super) fn under_pointer(&self) -> Option<&Picked> {
         let answer = self.under_pointer.as_ref().filter(|_| self.pointer.is_some());
         answer.map(|answer| &answer.known)
     }
 
-    /// The optics of the pinned pixel.
+    /// The drawing of the optics of the pinned pixel.
     pub(super) fn diagram(&self) -> Option<&Diagram> {
         self.diagram.as_ref().map(|answer| &answer.known)
     }

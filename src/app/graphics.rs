@@ -1,5 +1,5 @@
-//! What a window needs of Vulkan: a swapchain that comes and goes, frames in flight, and imgui's
-//! renderer.
+//! The parts of the window that use Vulkan: a swapchain that is replaced as the window changes, frames in flight, and
+//! imgui's renderer.
 
 use super::loader::Loader;
 use crate::error::{Error, Result};
@@ -15,20 +15,20 @@ use std::sync::Arc;
 use winit::event_loop::EventLoopProxy;
 use winit::window::Window;
 
-/// What the device says to a question of [`Graphics::draw`]: nothing, where the scene has changed since.
+/// The answer to a question of [`Graphics::draw`]. It holds `None` if the scene has changed since the question.
 pub(super) struct Answer(pub(super) Option<Picked>);
 
-/// The order is the order of dropping: imgui's renderer keeps raw handles of the device, and the
-/// surface must go before the window.
+/// The order of the fields is the order in which they are dropped: imgui's renderer keeps raw handles of the device, and
+/// the surface must be dropped before the window.
 pub(super) struct Graphics {
     overlay: Option<imgui_rs_vulkan_renderer::Renderer>,
     swapchain: Option<Swapchain>,
-    /// A picture to compare with.
+    /// The picture that is held for comparison.
     held: Option<Image>,
     renderer: Renderer,
     frames: [Commands; FRAMES_IN_FLIGHT],
     next_frame: usize,
-    /// Whether a frame has a question to answer.
+    /// For each frame in flight, whether it has a question to answer.
     asked: [bool; FRAMES_IN_FLIGHT],
     pub(super) loader: Loader,
     surface: Arc<Surface>,
@@ -78,8 +78,8 @@ impl Graphics {
         })
     }
 
-    /// The same on a device that is opened anew.
-    pub(super) fn again(&self, settings: &Settings) -> Result<Self> {
+    /// Opens the device again, and makes everything anew on it.
+    pub(super) fn reopen(&self, settings: &Settings) -> Result<Self> {
         Self::on(self.device.instance(), &self.window, &self.surface, &self.choice, &self.waker, settings)
     }
 
@@ -87,7 +87,7 @@ impl Graphics {
         &self.device.info().name
     }
 
-    /// What is allocated on the device: names and bytes.
+    /// The allocations on the device: their names and bytes.
     pub(super) fn memory(&self) -> Vec<(String, u64)> {
         self.device.memory()
     }
@@ -100,8 +100,8 @@ impl Graphics {
         self.renderer.finished()
     }
 
-    /// Makes the swapchain fit the window, and imgui's renderer the fonts. None while the window
-    /// has no area; else the size to render at.
+    /// Makes the swapchain fit the window and imgui's renderer fit the fonts. Returns the size to render at, or `None`
+    /// while the window has no area.
     pub(super) fn fit(&mut self, window: [u32; 2], imgui: &mut imgui::Context) -> Result<Option<[u32; 2]>> {
         if window.contains(&0) {
             self.swapchain = None;
@@ -114,7 +114,7 @@ impl Graphics {
         let extent = swapchain.extent();
         self.renderer.set_blue_first(swapchain.blue_first());
         if self.overlay.is_none() {
-            // It uploads the fonts by itself.
+            // It uploads the fonts when it is made.
             let (device, queue, allocator) = self.device.raw_parts();
             let options = Options { in_flight_frames: FRAMES_IN_FLIGHT, ..Options::default() };
             let target = DynamicRendering {
@@ -135,16 +135,16 @@ impl Graphics {
         Ok(Some(extent))
     }
 
-    /// The window changed: another swapchain before the next frame.
+    /// Replaces the swapchain before the next frame, because the window has changed.
     pub(super) fn refit(&mut self) {
         self.swapchain = None;
     }
 
-    /// Renders these settings from now on, if what they need is ready. Otherwise another thread makes it, and this
-    /// gives false.
+    /// Renders these settings from now on, if what they need is ready. Otherwise another thread prepares it, and this
+    /// returns false.
     pub(super) fn set(&mut self, settings: &Settings) -> Result<bool> {
         settings.check()?;
-        // The first picture is not to wait for what answers questions.
+        // The first picture should not wait for the passes that answer questions.
         let answers = self.renderer.prepared().answers() || self.renderer.progress().samples > 0;
         let ready = self.renderer.prepared().fits(settings, answers);
         if ready {
@@ -155,29 +155,29 @@ impl Graphics {
         Ok(ready)
     }
 
-    /// Renders these settings from now on, with parts that were made for them.
+    /// Renders these settings from now on, with parts that were prepared for them.
     pub(super) fn set_prepared(&mut self, settings: &Settings, prepared: &Prepared) -> Result<()> {
         self.renderer.set_prepared(settings, prepared)
     }
 
-    /// Goes on with what is rendered, in this size.
+    /// Continues to render these settings, which may differ from the current ones in the size alone.
     pub(super) fn go_on(&mut self, shown: &Settings) -> Result<()> {
         self.renderer.set(shown)
     }
 
-    /// Whether questions can be asked.
+    /// Whether the renderer can answer questions.
     pub(super) fn answers(&self) -> bool {
         self.renderer.prepared().answers()
     }
 
-    /// Holds the picture as it is now, to compare others with.
+    /// Holds the picture as it is now, for comparison.
     pub(super) fn hold(&mut self) -> Result<()> {
         self.device.wait_idle()?;
         self.held = Some(self.renderer.hold_picture()?);
         Ok(())
     }
 
-    /// Saves the picture as it is now: that of so many samples as it has.
+    /// Saves the picture as it is now, with the samples that it has so far.
     pub(super) fn save(&mut self, settings: &Settings, path: &Path) -> Result<()> {
         self.device.wait_idle()?;
         let saved = output::save(&mut self.renderer, settings, path);
@@ -185,23 +185,23 @@ impl Graphics {
         saved
     }
 
-    /// Whether a picture is held that is as large as the window.
+    /// Whether a picture is held that has the size of the window.
     pub(super) fn holds(&self) -> bool {
         let extent = self.swapchain.as_ref().map(Swapchain::extent);
         self.held.as_ref().is_some_and(|held| Some(held.extent()) == extent)
     }
 
-    /// Lets it go.
+    /// Releases the held picture.
     pub(super) fn let_go(&mut self) -> Result<()> {
         self.device.wait_idle()?;
         self.held = None;
         Ok(())
     }
 
-    /// Waits until the next frame's commands are free, and takes in what they measured. With `all`, for
-    /// every frame under way: then none stands between what the hand does next and the screen.
+    /// Waits until the commands of the next frame are free, and collects what they measured. With `all`, waits for every
+    /// frame in flight, so that none delays the picture of the next input.
     ///
-    /// Gives the answer to what was asked in that frame, if anything.
+    /// Returns the answer to the question of that frame, if it had one.
     pub(super) fn wait_for_frame(&mut self, all: bool) -> Result<Option<Answer>> {
         for frame in self.frames.iter().filter(|_| all) {
             frame.wait()?;
@@ -212,7 +212,7 @@ impl Graphics {
         Ok(asked.then(|| Answer(self.renderer.picked(self.next_frame))))
     }
 
-    /// The next image to draw to. None where the window has changed or is hidden.
+    /// The next image to draw to. `None` if the window has changed or is hidden.
     pub(super) fn acquire(&mut self) -> Result<Option<AcquiredImage>> {
         let Some(swapchain) = &mut self.swapchain else {
             return Ok(None);
@@ -227,8 +227,9 @@ impl Graphics {
         })
     }
 
-    /// Traces for as long as `pace` says, if at all, and shows the picture on `image` with imgui on top.
-    /// [`Self::wait_for_frame`] comes first. `split`: up to which column the held picture is shown. `question`: of a place of the picture.
+    /// Traces for as long as `pace` says, if it is given, and draws the picture and the panel to `image`. Call
+    /// [`Self::wait_for_frame`] first. The held picture is shown up to the column `split`. The answer to `question` comes
+    /// when the frame is done.
     pub(super) fn draw(
         &mut self,
         image: &AcquiredImage,
@@ -264,7 +265,7 @@ impl Graphics {
         Ok(())
     }
 
-    /// The font atlas changed. imgui's renderer reads it when it is made.
+    /// Drops imgui's renderer, because the fonts have changed: it reads them when it is made.
     pub(super) fn reload_fonts(&mut self) -> Result<()> {
         self.device.wait_idle()?;
         self.overlay = None;
@@ -274,7 +275,7 @@ impl Graphics {
 
 impl Drop for Graphics {
     fn drop(&mut self) {
-        // Nothing may be in use when the parts are dropped; a lost device uses nothing.
+        // The parts must not be in use when they are dropped. An error means that the device is lost and uses nothing.
         let _ = self.device.wait_idle();
     }
 }

@@ -1,9 +1,9 @@
 //! Undo and redo.
 
-/// Changes that are kept.
+/// The largest number of changes that can be undone.
 const MOST: usize = 500;
 
-/// What there was before, and what was undone, the latest last.
+/// Earlier states and undone states, each with the latest one last.
 pub(super) struct History<T> {
     past: Vec<T>,
     now: T,
@@ -15,7 +15,7 @@ impl<T: Clone + PartialEq> History<T> {
         Self { past: Vec::new(), now, undone: Vec::new() }
     }
 
-    /// Takes in how things are, once a change is over.
+    /// Records the current state, once a change is over.
     pub(super) fn record(&mut self, now: &T) {
         if *now == self.now {
             return;
@@ -27,14 +27,14 @@ impl<T: Clone + PartialEq> History<T> {
         }
     }
 
-    /// One change back. None where there is nothing to undo.
+    /// Undoes the last change. `None` if there is nothing to undo.
     pub(super) fn undo(&mut self) -> Option<T> {
         let before = self.past.pop()?;
         self.undone.push(std::mem::replace(&mut self.now, before));
         Some(self.now.clone())
     }
 
-    /// One undone change forth again.
+    /// Redoes the change that was undone last. `None` if there is none.
     pub(super) fn redo(&mut self) -> Option<T> {
         let after = self.undone.pop()?;
         self.past.push(std::mem::replace(&mut self.now, after));

@@ -1,9 +1,9 @@
-//! Keys that act wherever the pointer is, and the list of all of them.
+//! Keys that work wherever the pointer is, and the list of all keys.
 
 use super::ui::Action;
 use imgui::{Condition, Key, Ui};
 
-/// What hand and keys do, for people.
+/// What the mouse and the keys do, as shown to the user.
 const LIST: [(&str, &str); 18] = [
     ("Right click, F", "focus on what is under the pointer"),
     ("Ctrl + wheel", "move the focal plane"),
@@ -14,7 +14,7 @@ const LIST: [(&str, &str); 18] = [
     ("W A S D, Q E", "fly forward, left, back, right; down, up"),
     ("Home", "the scene's own camera"),
     ("O", "optics"),
-    ("C", "compare: hold this picture on the left, or let it go"),
+    ("C", "compare: hold this picture on the left, or release it"),
     ("P", "pause, and go on"),
     ("Ctrl + Z", "undo"),
     ("Ctrl + Shift + Z, Ctrl + Y", "redo"),
@@ -25,8 +25,8 @@ const LIST: [(&str, &str); 18] = [
     ("?, F1", "this list"),
 ];
 
-/// The keys that go with others. imgui has them as they are when a frame begins: where one goes up in the same
-/// frame in which its letter goes down, as with a quick hand and a slow frame, it would be missed.
+/// The modifier keys. imgui knows only their state at the start of a frame. If Ctrl is released in the frame in which its
+/// letter is pressed, as happens when frames are slow, that state would miss it.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Modifiers {
     pub(super) ctrl: bool,
@@ -35,7 +35,7 @@ pub(super) struct Modifiers {
 }
 
 impl Modifiers {
-    /// Those of this frame: down in it, or at the last one.
+    /// The modifiers of this frame: those that are held now, or were held in the frame before.
     pub(super) fn take(&mut self, ui: &Ui) -> Self {
         let io = ui.io();
         let now = [io.key_ctrl, io.key_shift];
@@ -45,14 +45,14 @@ impl Modifiers {
     }
 }
 
-/// What was pressed, if it asks for something.
+/// The action of the key that was pressed, if it has one.
 pub(super) fn pressed(ui: &Ui, modifiers: Modifiers) -> Option<Action> {
     let io = ui.io();
     if io.want_text_input {
         return None;
     }
     let pressed = |key: Key| ui.is_key_pressed_no_repeat(key);
-    // Wherever a keyboard has it.
+    // The character is used and not the key, because each keyboard layout has it on another key.
     if pressed(Key::F1) || io.peek_input_characters().contains('?') {
         return Some(Action::Keys);
     }
@@ -78,7 +78,7 @@ pub(super) fn pressed(ui: &Ui, modifiers: Modifiers) -> Option<Action> {
     chosen.map(|(_, action)| action)
 }
 
-/// Shows the list, while it is open.
+/// Shows the list of keys, while it is open.
 pub(super) fn help(ui: &Ui, open: &mut bool) {
     if !*open {
         return;

@@ -1,5 +1,5 @@
-//! Makes ready in another thread what takes long: it reads files, builds trees, uploads them and compiles passes,
-//! while the window goes on with what it has.
+//! A thread for slow work: it reads files, builds trees, uploads them and compiles passes, while the window continues with
+//! what it has.
 
 use super::panel::Content;
 use crate::error::Result;
@@ -12,15 +12,15 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 use winit::event_loop::EventLoopProxy;
 
-/// The other thread, and what it was asked for. Of each kind of request the newest wins.
+/// The thread and its pending requests. The newest request of each kind replaces older ones.
 pub(super) struct Loader {
-    /// None once it is to end.
+    /// `None` once the thread is to end.
     requests: Option<Sender<Request>>,
     answers: Receiver<Answer>,
     thread: Option<JoinHandle<()>>,
-    /// What is to be opened.
+    /// The file or scene that is being opened.
     opening: Option<PathBuf>,
-    /// What is to be prepared.
+    /// What is being prepared.
     preparing: Option<Keys>,
     /// The number of the newest request to open something.
     newest: Arc<AtomicU64>,
@@ -36,22 +36,22 @@ enum Answer {
     Prepared { keys: Keys, prepared: Result<Prepared> },
 }
 
-/// What is ready.
+/// A result of the thread.
 pub(super) enum Ready {
-    /// What was opened, and what its settings need.
+    /// The file or scene that was opened, and the parts that its settings need.
     Opened { name: PathBuf, opened: Result<Box<(Content, Prepared)>> },
-    /// What settings need.
+    /// The parts that settings need.
     Prepared(Result<Prepared>),
 }
 
 impl Loader {
-    /// Starts the thread. `prepared`: what there is. `waker` is told whenever something is ready.
+    /// Starts the thread. New parts share what they can with `prepared`. `waker` is notified whenever something is ready.
     pub(super) fn new(preparer: Arc<Preparer>, prepared: Prepared, waker: EventLoopProxy<()>) -> Self {
         let (requests, todo) = channel();
         let (done, answers) = channel();
         let newest = Arc::new(AtomicU64::new(0));
         let answer = move |answer| {
-            // The window may be gone, and its events.
+            // Both fail only when the window has closed, and then nobody needs the answer.
             let _ = done.send(answer);
             let _ = waker.send_event(());
         };
@@ -67,14 +67,14 @@ impl Loader {
         }
     }
 
-    /// Opens a scene, a mesh or a picture, to be shown in place of what is set now.
+    /// Opens a scene, a mesh or a picture, which replaces what is shown now.
     pub(super) fn open(&mut self, name: &Path, now: &Settings) {
         let number = self.newest.fetch_add(1, Ordering::Relaxed) + 1;
         self.opening = Some(name.to_path_buf());
         self.ask(Request::Open { number, name: name.to_path_buf(), now: Box::new(now.clone()) });
     }
 
-    /// Makes what settings need, unless that is under way.
+    /// Prepares the parts that these settings need, unless they are being prepared already.
     pub(super) fn prepare(&mut self, settings: &Settings) {
         let keys = Keys::new(settings, true);
         if self.preparing.as_ref() != Some(&keys) {
@@ -84,16 +84,16 @@ impl Loader {
     }
 
     fn ask(&self, request: Request) {
-        // The thread ends only when this goes.
+        // Sending fails only when the thread has ended, which it does when the loader is dropped.
         let _ = self.requests.as_ref().map(|requests| requests.send(request));
     }
 
-    /// What is being opened.
+    /// The name of what is being opened.
     pub(super) fn opening(&self) -> Option<&Path> {
         self.opening.as_deref()
     }
 
-    /// Whether anything is under way.
+    /// Whether anything is being opened or prepared.
     pub(super) fn is_busy(&self) -> bool {
         self.opening.is_some() || self.preparing.is_some()
     }
@@ -121,7 +121,7 @@ impl Loader {
 }
 
 impl Drop for Loader {
-    /// Waits for the step under way: what a driver compiles cannot be called off.
+    /// Waits for the current step to end: a driver cannot be told to stop compiling.
     fn drop(&mut self) {
         self.requests = None;
         self.newest.fetch_add(1, Ordering::Relaxed);
@@ -131,14 +131,14 @@ impl Drop for Loader {
 
 struct Worker<F> {
     preparer: Arc<Preparer>,
-    /// What was made last, whose parts are shared where they fit.
+    /// The parts that were made last. New settings share those that fit them.
     last: Prepared,
     newest: Arc<AtomicU64>,
     answer: F,
 }
 
 impl<F: Fn(Answer)> Worker<F> {
-    /// Waits for requests, and does the newest of each kind. False at the end.
+    /// Waits for requests, and handles the newest of each kind. Returns false when there will be no more.
     fn work(&mut self, todo: &Receiver<Request>) -> bool {
         let Ok(first) = todo.recv() else {
             return false;
@@ -150,14 +150,14 @@ impl<F: Fn(Answer)> Worker<F> {
                 Request::Prepare(settings) => prepare = Some(settings),
             }
         }
-        // What the picture needs that is shown comes first: it takes less time than another one.
+        // What the current picture needs comes first, because it takes less time than opening another picture.
         if let Some(settings) = prepare {
             let prepared = self.prepare(&settings);
             (self.answer)(Answer::Prepared { keys: Keys::new(&settings, true), prepared });
         }
         if let Some(Request::Open { number, name, now }) = open {
             let opened = Content::read(&name);
-            // Another one may be wanted by now.
+            // A newer request to open something may have arrived.
             if number == self.newest.load(Ordering::Relaxed) {
                 let opened = opened.and_then(|content| {
                     let prepared = self.prepare(&content.settings(&now))?;

@@ -1,4 +1,4 @@
-//! What the viewer remembers from one time to the next.
+//! What the viewer remembers from one run to the next.
 
 use crate::pending_file::PendingFile;
 use crate::settings::saved_names;
@@ -7,24 +7,24 @@ use serde::{Deserialize, Serialize};
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// What there was when the viewer was closed last.
+/// The state of the viewer when it was closed.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Memory {
     /// The window's size in physical pixels.
     pub size: Option<[u32; 2]>,
-    /// The settings, as [`crate::settings::Settings::arguments`] gives them; none the first time.
+    /// The settings, as [`crate::settings::Settings::arguments`] returns them. Empty before the first run.
     #[serde(with = "saved_names")]
     pub arguments: Vec<OsString>,
-    /// Files that were opened, the latest first.
+    /// Files that were opened, with the latest first.
     #[serde(with = "saved_names")]
     pub recent: Vec<PathBuf>,
-    /// Whether the optics were shown.
+    /// Whether the drawing of the optics was open.
     pub optics: bool,
 }
 
 impl Memory {
-    /// From the user's folder. Without one, or with a damaged file, there is nothing to remember.
+    /// Reads the memory from the user's folder. It is empty if there is no folder or the file is damaged.
     pub fn load() -> Self {
         let Some(path) = file("viewer.json") else {
             return Self::default();
@@ -38,7 +38,7 @@ impl Memory {
         })
     }
 
-    /// To the user's folder, if there is one.
+    /// Writes the memory to the user's folder, if there is one.
     pub(super) fn save(&self) {
         let Some(path) = file("viewer.json") else {
             return;
@@ -51,7 +51,7 @@ impl Memory {
     }
 }
 
-/// A file of the viewer's own, in a folder that there is.
+/// The path of one of the viewer's own files. Creates the folder if it does not exist.
 pub(super) fn file(name: &str) -> Option<PathBuf> {
     let folders = etcetera::base_strategy::choose_native_strategy().ok()?;
     let folder = folders.state_dir().unwrap_or_else(|| folders.data_dir()).join("thinlens");

@@ -26,22 +26,22 @@ use crate::settings::{DeviceChoice, Settings};
 pub struct Options {
     /// What to render. The picture's size follows the window's.
     pub settings: Settings,
-    /// What Reset goes back to.
+    /// The settings that the Reset button restores.
     pub initial: Settings,
     /// The window's size in physical pixels, if one was asked for.
     pub size: Option<[u32; 2]>,
-    /// What there was the last time.
+    /// What the viewer remembers of its last run.
     pub memory: Memory,
-    /// What to tell the user at first.
+    /// A message to show at the start, if there is one.
     pub message: Option<String>,
-    /// Where to render.
+    /// The device to render on.
     pub device: DeviceChoice,
 }
 
-/// Opens the viewer and returns when it is closed.
+/// Opens the viewer, and returns once it is closed.
 ///
 /// # Errors
-/// [`Error::NoDisplay`] where no window can be opened at all; otherwise whatever ended the viewer.
+/// [`Error::NoDisplay`] if no window can be opened at all; otherwise the error that ended the viewer.
 pub fn run(options: Options) -> Result<()> {
     let event_loop = display::event_loop().map_err(|error| Error::NoDisplay(reason(&error)))?;
     let mut viewer = window::Viewer::new(options, event_loop.create_proxy());
@@ -50,7 +50,7 @@ pub fn run(options: Options) -> Result<()> {
     ended.map_err(|error| Error::Window(reason(&error)))
 }
 
-/// Without the source file that winit puts in front.
+/// The text of an error, without the source file that winit puts in front of it.
 fn reason(error: &dyn std::fmt::Display) -> String {
     let text = error.to_string().replace('\n', " ");
     text.rsplit(": ").next().unwrap_or_default().trim_end_matches('.').to_owned()

@@ -1,22 +1,23 @@
-//! Moving the camera by mouse and keys: around what it looks at, along its axes, and back.
+//! Moves the camera with the mouse and the keys: around the point that it looks at, sideways, nearer or away, and in
+//! flight.
 
 use super::keys::Modifiers;
 use crate::scene::{Camera, MAX_LENGTH};
 use glam::{DQuat, DVec3};
 use imgui::{Key, MouseButton, Ui};
 
-/// Radians a point of the mouse's way turns the camera.
+/// The camera turns by this many radians for each point that the mouse moves.
 const TURN: f64 = 0.006;
-/// What a notch of the wheel leaves of the distance.
+/// One notch of the wheel multiplies the distance by this.
 const DOLLY: f64 = 0.9;
-/// A second of flight goes this share of the distance to what is looked at.
+/// One second of flight covers this fraction of the distance to the point that the camera looks at.
 const FLIGHT: f64 = 0.6;
-/// The line of sight stays this far from straight up and down, in radians.
+/// The smallest angle between the line of sight and straight up or down, in radians.
 const POLE: f64 = 0.02;
-/// The mouse has to move so far, in points, before a click is a drag.
+/// The mouse has to move this far, in points, before a press becomes a drag.
 const STILL: f32 = 3.0;
 
-/// Keys that fly, and where to: right, up, forward.
+/// The keys for flight, each with its direction: right, up, forward.
 const FLYING: [(Key, [f64; 3]); 6] = [
     (Key::W, [0.0, 0.0, 1.0]),
     (Key::S, [0.0, 0.0, -1.0]),
@@ -26,18 +27,18 @@ const FLYING: [(Key, [f64; 3]); 6] = [
     (Key::E, [0.0, 1.0, 0.0]),
 ];
 
-/// What the hand is doing to the camera.
+/// The movement of the camera that is going on.
 #[derive(Default)]
 pub(super) struct Navigate {
     /// The button that is held, and whether it has become a drag.
     held: Option<(MouseButton, bool)>,
-    /// Which keys of [`FLYING`] fly: those that went down alone. S that is still down after the Ctrl of Ctrl+S
-    /// does not.
+    /// Which keys of [`FLYING`] move the camera: those that were pressed without a modifier. After Ctrl+S, an S that is
+    /// still held when Ctrl is released does not count.
     flying: [bool; FLYING.len()],
 }
 
 impl Navigate {
-    /// Moves the camera as mouse and keys say.
+    /// Handles mouse and keys, and moves the camera.
     pub(super) fn take_input(&mut self, ui: &Ui, modifiers: Modifiers, camera: &mut Camera) {
         let io = ui.io();
         let over_picture = !io.want_capture_mouse;
@@ -80,13 +81,13 @@ impl Navigate {
         }
     }
 
-    /// Whether the camera is under way.
+    /// Whether the camera is being moved.
     pub(super) fn is_moving(&self) -> bool {
         self.flying.contains(&true) || self.held.is_some_and(|(_, drags)| drags)
     }
 }
 
-/// Places the camera so, where it can stand there.
+/// Places the camera there, unless it could not see from that place.
 fn place(camera: &mut Camera, eye: DVec3, look_at: DVec3) {
     let moved = Camera { eye, look_at, ..*camera }.with_few_digits();
     let within = |point: DVec3| point.abs().max_element() <= f64::from(MAX_LENGTH);
@@ -95,7 +96,7 @@ fn place(camera: &mut Camera, eye: DVec3, look_at: DVec3) {
     }
 }
 
-/// Turns around what is looked at: to the right by the first angle, and up by the second.
+/// Turns the camera around the point that it looks at: to the right by the first angle and up by the second.
 fn orbit(camera: &mut Camera, [right, up]: [f64; 2]) {
     let (eye, look_at) = (camera.eye, camera.look_at);
     let pole = camera.up.normalize();
@@ -106,7 +107,7 @@ fn orbit(camera: &mut Camera, [right, up]: [f64; 2]) {
     place(camera, look_at + DQuat::from_axis_angle(aside, turned) * away, look_at);
 }
 
-/// Moves sideways, so that what is looked at follows the mouse by so many points.
+/// Moves the camera sideways, so that the point that it looks at follows the mouse by this many points.
 fn pan(camera: &mut Camera, [x, y]: [f64; 2], height: f32) {
     let (eye, look_at, frame) = (camera.eye, camera.look_at, camera.frame());
     let pixel = 2.0 * (0.5 * camera.vfov_radians).tan() * eye.distance(look_at) / f64::from(height);
@@ -114,13 +115,13 @@ fn pan(camera: &mut Camera, [x, y]: [f64; 2], height: f32) {
     place(camera, eye + shift, look_at + shift);
 }
 
-/// Moves towards what is looked at, to this share of the distance.
+/// Moves the camera along the line of sight, to this fraction of its distance.
 fn dolly(camera: &mut Camera, share: f64) {
     let (eye, look_at) = (camera.eye, camera.look_at);
     place(camera, look_at + (eye - look_at) * share, look_at);
 }
 
-/// Moves right, up and forward, in distances to what is looked at.
+/// Moves the camera right, up and forward. The unit is the distance to the point that it looks at.
 fn fly(camera: &mut Camera, [right, up, forward]: [f64; 3]) {
     let (eye, look_at, frame) = (camera.eye, camera.look_at, camera.frame());
     let shift = (right * frame.u() + up * frame.v() - forward * frame.w()) * eye.distance(look_at);

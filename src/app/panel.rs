@@ -1,4 +1,4 @@
-//! What the panel edits, and what it has to know for it. How it is drawn is in `ui`.
+//! The state of the panel: the settings that it edits, and what it needs for that. `ui` draws it.
 
 use super::Options;
 use super::memory::Memory;
@@ -10,43 +10,43 @@ use crate::scene::{self, ApertureImage, BUILTINS, SceneRef};
 use crate::settings::{Called, Settings};
 use std::path::{Path, PathBuf};
 
-/// Files that are offered again.
+/// The largest number of recent files.
 const MOST_RECENT: usize = 8;
 
 /// The panel's state.
 pub(super) struct Panel {
-    /// What is rendered now.
+    /// The settings as the user has set them.
     pub(super) settings: Settings,
-    /// What Reset goes back to.
+    /// The settings that the Reset button restores.
     pub(super) initial: Settings,
-    /// What the renderer took last: of this is the picture that is shown.
+    /// The settings that the renderer accepted last, which the picture on the screen has.
     pub(super) accepted: State,
-    /// The last aperture that was an image.
+    /// The image that was the aperture last, to switch back to.
     pub(super) image: Option<ApertureImage>,
-    /// The choices: the built-ins, and what was opened.
+    /// The scenes to choose from: the built-in ones and those that were opened.
     pub(super) scenes: Vec<PathBuf>,
-    /// What was opened before, the latest first.
+    /// Recent files, with the latest first.
     pub(super) recent: Vec<PathBuf>,
     pub(super) files: Files,
-    /// What was asked to be opened and is not being loaded yet.
+    /// A file or scene to open, which the loader does not know of yet.
     pub(super) to_open: Option<PathBuf>,
     pub(super) message: Option<String>,
     pub(super) optics: Optics,
-    /// The picture that is held to compare with, if one is.
+    /// The picture that is held for comparison, if there is one.
     pub(super) held: Option<Held>,
     pub(super) paused: bool,
     pub(super) keys: bool,
-    /// Where the controls were drawn, to tell when they moved.
+    /// Where the controls were drawn last, to notice when they move.
     pub(super) layout: Layout,
 }
 
-/// What the window's own controls say.
+/// The state of the window that draws the optics.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Optics {
     pub(super) open: bool,
-    /// Of each fan, and samples in the front view.
+    /// The number of rays in each fan, and of samples in the front view.
     pub(super) rays: u32,
-    /// How often as high things are drawn in the side and top view, where the lens is too narrow to see.
+    /// Vertical magnification of the side and top view, for lenses that are too narrow to see.
     pub(super) stretch: f32,
 }
 
@@ -56,26 +56,26 @@ impl Default for Optics {
     }
 }
 
-/// A picture that is held.
+/// A picture that is held for comparison.
 pub(super) struct Held {
-    /// Where the line stands, as a share of the width.
+    /// The position of the dividing line, as a fraction of the width.
     pub(super) share: f32,
-    /// What was set when it was held.
+    /// The settings of the held picture, in a few words.
     pub(super) words: String,
 }
 
-/// Where controls are, in physical pixels: name, and left, top, width, height.
+/// The controls, each with its name and its left, top, width and height in physical pixels.
 pub(super) type Layout = Vec<(&'static str, [i32; 4])>;
 
-/// What a change changes.
+/// What undo and redo restore.
 #[derive(Clone, PartialEq)]
 pub(super) struct State {
     pub(super) settings: Settings,
     initial: Settings,
 }
 
-/// A file's path from wherever one is.
-fn whole_path(file: &Path) -> PathBuf {
+/// The absolute path of a file.
+fn absolute(file: &Path) -> PathBuf {
     std::path::absolute(file).unwrap_or_else(|_| file.to_path_buf())
 }
 
@@ -106,7 +106,7 @@ impl Panel {
         panel
     }
 
-    /// The scene is among the choices from now on.
+    /// Adds the scene to those to choose from.
     fn offer_scene(&mut self) {
         let source = &self.settings.estimator.scene.source;
         if !self.scenes.contains(source) {
@@ -114,61 +114,61 @@ impl Panel {
         }
     }
 
-    /// Back to what the scene was opened with.
+    /// Restores the settings that the scene was opened with.
     pub(super) fn reset(&mut self) {
         let size = self.settings.estimator.size;
         self.settings = self.initial.clone();
         self.settings.estimator.size = size;
     }
 
-    /// Puts the camera back to where the scene was opened, and leaves all else.
+    /// Restores the position of the camera that the scene was opened with, and nothing else.
     pub(super) fn reset_camera(&mut self) {
         let (camera, initial) = (&mut self.settings.estimator.camera, &self.initial.estimator.camera);
         (camera.eye, camera.look_at, camera.up) = (initial.eye, initial.look_at, initial.up);
     }
 
-    /// Shows a message until there is another one.
+    /// Shows a message until the next one.
     pub(super) fn say(&mut self, message: String) {
         log::debug!("{} {message}", telemetry::MESSAGE);
         self.message = Some(message);
     }
 
-    /// What to remember of it.
+    /// What to remember for the next run.
     pub(super) fn memory(&self) -> Memory {
         let Settings { estimator, .. } = &self.settings;
         Memory {
             size: Some(estimator.size),
-            // The next time the viewer may be started elsewhere.
+            // The next run may start in another folder.
             arguments: self.settings.arguments_from_anywhere(),
             recent: self.recent.clone(),
             optics: self.optics.open,
         }
     }
 
-    /// What undo and redo go back and forth between. The window's size is not part of it.
+    /// The state for undo and redo. The size of the window is not part of it.
     pub(super) fn state(&self) -> State {
         let mut state = State { settings: self.settings.clone(), initial: self.initial.clone() };
         (state.settings.estimator.size, state.initial.estimator.size) = ([1; 2], [1; 2]);
         state
     }
 
-    /// Puts a state back.
+    /// Restores a state.
     pub(super) fn restore(&mut self, state: State) {
         let size = self.settings.estimator.size;
         (self.settings, self.initial) = (state.settings, state.initial);
         self.settings.estimator.size = size;
     }
 
-    /// The renderer took the settings.
+    /// Notes that the renderer accepted the settings.
     pub(super) fn accept(&mut self) {
         if self.accepted.settings != self.settings || self.accepted.initial != self.initial {
             self.accepted = State { settings: self.settings.clone(), initial: self.initial.clone() };
         }
     }
 
-    /// The renderer did not: back to what it took last, and say why.
+    /// Restores the settings that the renderer accepted last, and shows why it refused the new ones.
     pub(super) fn refuse(&mut self, error: &Error) {
-        // What is wrong with a number is said in the panel's words.
+        // If a number is out of range, the message calls it what the panel calls it.
         let own = self.settings.check_as(Called::Label).err();
         self.say(own.as_ref().unwrap_or(error).to_string());
         self.restore(self.accepted.clone());
@@ -179,13 +179,13 @@ impl Panel {
         &self.accepted.settings
     }
 
-    /// Asks for a scene, a mesh, or a picture with its settings.
+    /// Opens a scene, a mesh, or a picture with its settings, as soon as the loader is free.
     pub(super) fn open(&mut self, name: &Path) {
         self.message = None;
         self.to_open = Some(name.to_path_buf());
     }
 
-    /// Shows what was opened from now on.
+    /// Shows what was opened.
     pub(super) fn show(&mut self, name: &Path, content: &Content) {
         let settings = content.settings(&self.settings);
         let initial = self.settings.with_scene(settings.estimator.scene.clone());
@@ -199,20 +199,20 @@ impl Panel {
         }
     }
 
-    /// The file is the latest of those that are offered again.
+    /// Adds a file to the front of the recent files.
     pub(super) fn remember(&mut self, file: &Path) {
-        let file = whole_path(file);
+        let file = absolute(file);
         self.recent.retain(|known| *known != file);
         self.recent.insert(0, file);
         self.recent.truncate(MOST_RECENT);
     }
 
-    /// Where the picture goes.
+    /// The name of the file to save the picture to.
     pub(super) fn picture_file(&mut self) -> String {
         self.files.picture.file()
     }
 
-    /// It went there; the next one goes elsewhere.
+    /// Reports that the picture was saved, and chooses a new name for the next one.
     pub(super) fn picture_is_saved(&mut self) {
         let SaveAs { file, .. } = &self.files.picture;
         let (said, next) = (format!("saved {file}"), SaveAs::new(file));
@@ -220,14 +220,14 @@ impl Panel {
         self.say(said);
     }
 
-    /// Saves the scene, and says so or why not.
+    /// Saves the scene, and reports the file or the error.
     pub(super) fn save_scene(&mut self) {
         let file = self.files.scene.file();
         if let Err(error) = output::save_scene(&self.settings, Path::new(&file)) {
             self.say(error.to_string());
             return;
         }
-        // What is rendered is told by its difference from the file, which has changed.
+        // Settings are described by their difference from the scene file. The file has changed, so it is loaded again.
         if Path::new(&file) == self.settings.estimator.scene.source {
             self.open(Path::new(&file));
         }
@@ -237,7 +237,7 @@ impl Panel {
     }
 }
 
-/// What a file holds that was opened.
+/// The content of a file that was opened.
 pub(super) enum Content {
     Scene(SceneRef),
     /// The settings of a picture.
@@ -255,7 +255,7 @@ impl Content {
         }
     }
 
-    /// What is rendered when it is shown in place of what is rendered now.
+    /// The settings that result when this replaces what is shown now.
     pub(super) fn settings(&self, now: &Settings) -> Settings {
         match self {
             Self::Scene(scene) => now.with_scene(scene.clone()),

@@ -2,35 +2,35 @@
 
 use std::path::Path;
 
-/// The name that pictures have until another one is typed.
+/// The name of a saved picture, unless the user types another.
 const PICTURE: &str = "thinlens.png";
-/// The name that scenes have until another one is typed.
+/// The name of a saved scene, unless the user types another.
 const SCENE: &str = "scene.toml";
 
-/// What is typed into the panel's fields.
+/// The content of the panel's fields for file names.
 pub(super) struct Files {
     pub(super) open: String,
     pub(super) picture: SaveAs,
     pub(super) scene: SaveAs,
 }
 
-/// Where something is saved.
+/// The name of a file to save to.
 pub(super) struct SaveAs {
     pub(super) file: String,
-    /// Whether nobody typed it: then no file is to be lost.
+    /// Whether the name is a suggestion. The user has not typed it, so it must not overwrite a file.
     pub(super) offered: bool,
 }
 
 impl SaveAs {
     pub(super) fn new(file: &str) -> Self {
-        Self { file: free(file), offered: true }
+        Self { file: unused_name(file), offered: true }
     }
 
-    /// The file, now that something is saved.
+    /// The name to use for saving now.
     pub(super) fn file(&mut self) -> String {
         if self.offered {
-            // There may be one by now.
-            self.file = free(&self.file);
+            // The file may have been created since the name was suggested.
+            self.file = unused_name(&self.file);
         }
         self.file.clone()
     }
@@ -42,11 +42,11 @@ impl Default for Files {
     }
 }
 
-/// The name, or one like it with a number, that no file has yet.
-fn free(name: &str) -> String {
+/// This name, or this name with a number, such that no file has it yet.
+fn unused_name(name: &str) -> String {
     let path = Path::new(name);
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    // What was numbered before counts on.
+    // A name that ends with a number continues from there.
     let (stem, first) = match stem.rsplit_once('-').map(|(stem, number)| (stem, number.parse::<u32>())) {
         Some((stem, Ok(number))) => (stem.to_owned(), number),
         _ => (stem.into_owned(), 1),

@@ -1,46 +1,46 @@
-//! What the viewer says in its log of itself. Its tests wait for these lines, and read them with the same words.
+//! What the viewer logs about itself. Its tests wait for these lines, and use the same constants to find them.
 
 use crate::renderer::Progress;
 use crate::settings::Settings;
 
 /// A frame begins.
 pub const FRAME: &str = "frame";
-/// All is drawn that there is to draw, and nothing is being made ready.
+/// Everything is drawn, and nothing is being loaded or prepared.
 pub const IDLE: &str = "idle";
-/// Where the pointer is: x and y.
+/// The position of the pointer: x and y.
 pub const POINTER_AT: &str = "pointer at";
 /// The pointer is outside the window.
 pub const POINTER_LEFT: &str = "pointer left";
-/// A button or a key: `Pressed`, `Released`; or `Turned`, a wheel.
+/// Input: `Pressed` or `Released` for a button or a key, `Turned` for the wheel.
 pub const INPUT: &str = "input";
-/// Milliseconds since the first event that a frame shows.
+/// A frame was presented. Gives the milliseconds since the oldest event whose effect it shows.
 pub const PRESENTED: &str = "presented";
-/// A control: its name in quotes, `at`, its left, top, width and height.
+/// A control was drawn: its name in quotes, `at`, and its left, top, width and height.
 pub const CONTROL: &str = "control";
-/// What the panel tells the user.
+/// A message that the panel shows to the user.
 pub const MESSAGE: &str = "message";
-/// The command line that was copied.
+/// The user copied this command line.
 pub const COPIED: &str = "copied";
-/// A file or scene that is to be opened.
+/// The viewer begins to open this file or scene.
 pub const LOADING: &str = "loading";
-/// A file or scene that is shown from now on.
+/// The viewer shows this file or scene from now on.
 pub const LOADED: &str = "loaded";
-/// A pass is compiled, whose name follows.
+/// The pass with this name is being compiled.
 pub const COMPILING: &str = "compiling";
-/// The pixel whose optics are drawn, and p there.
+/// The drawing of the optics is new: its pixel, and the point p.
 pub const DIAGRAM: &str = "diagram of";
 /// Lens diameter, focal distance, `jitter` and the jitter.
 pub const LENS: &str = "lens";
-/// The lens's centre, and what the camera looks at.
+/// The centre of the lens, and the point that the camera looks at.
 pub const CAMERA: &str = "camera";
 /// Camera model, field of view in degrees, blades, cat's eye.
 pub const VIEW: &str = "view";
-/// Samples and their target, separated by a slash, and the picture's size.
+/// The samples per pixel of the picture on the screen and their target, separated by a slash, and the picture's size.
 pub const SHOWN: &str = "shown";
-/// What is allocated on the device: its bytes, and each allocation's name and bytes.
+/// The memory that is allocated on the device: all bytes, then the name and the bytes of each allocation.
 pub const MEMORY: &str = "memory";
 
-/// What was said last, so that only changes are.
+/// What was logged last, so that only changes are logged.
 #[derive(Default)]
 pub(super) struct Telemetry {
     lens: String,
@@ -51,7 +51,7 @@ pub(super) struct Telemetry {
 }
 
 impl Telemetry {
-    /// Says what has changed of what is set, and of the picture that is shown.
+    /// Logs what has changed in the settings and in the picture that is shown.
     pub(super) fn report(&mut self, set: &Settings, shown: &Settings, progress: Progress) {
         let estimator = &set.estimator;
         let (lens, camera, aperture) = (&estimator.lens, &estimator.camera, &estimator.aperture);
@@ -76,7 +76,7 @@ impl Telemetry {
         );
     }
 
-    /// Says what is allocated, where anybody listens.
+    /// Logs what is allocated on the device, if the log is on.
     pub(super) fn report_memory(&mut self, memory: impl FnOnce() -> Vec<(String, u64)>) {
         if !log::log_enabled!(log::Level::Trace) {
             return;

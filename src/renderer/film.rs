@@ -1,4 +1,4 @@
-//! The images of one picture size.
+//! The images that a picture is made in.
 
 use crate::error::Result;
 use crate::passes::Adaptive;
@@ -7,21 +7,21 @@ use crate::settings::{Estimator, Settings};
 use crate::vulkan::{Device, Image, Recording};
 use std::sync::Arc;
 
-/// The images between the passes.
+/// The images that the passes write and read, all in the size of the picture.
 pub(super) struct FilmImages {
     key: FilmKey,
-    /// The tracing image: the mean of the last batch and its number of samples.
+    /// The tracing image: for each pixel the mean of the last batch and its number of samples.
     pub(super) traced: Arc<Image>,
-    /// The accumulation image: the running mean and count.
+    /// The accumulation image: for each pixel the mean of all batches and the number of samples.
     pub(super) film: Arc<Image>,
     /// The resolved picture.
     pub(super) picture: Arc<Image>,
     pub(super) adaptive: Arc<Adaptive>,
-    /// Whether the images have been cleared since they were made, which gives them their layout.
+    /// Whether the images have been cleared since they were made. Clearing gives them their layout.
     have_layout: bool,
 }
 
-/// What the images are made for.
+/// The properties of a picture that the images depend on.
 #[derive(Clone, Copy, PartialEq)]
 struct FilmKey {
     size: [u32; 2],
@@ -51,8 +51,8 @@ impl FilmImages {
         self.key == FilmKey::new(estimator)
     }
 
-    /// Empties the tracing image, so that nothing of the last picture is shown, unless it is only looked
-    /// at where it has been written since. The film itself is taken for empty by the first accumulation.
+    /// Clears the tracing image if `traced` says so, so that nothing of the last picture is shown. That is not needed if it
+    /// is read only where it has been written since. The film need not be cleared: the first accumulation overwrites it.
     pub(super) fn record_clear(&mut self, recording: &mut Recording<'_>, traced: bool) {
         if !self.have_layout {
             recording.clear(&self.film);
@@ -66,15 +66,15 @@ impl FilmImages {
     }
 }
 
-/// What each pixel's middle sees, for the overlays that want to know; of one pixel where none does.
+/// The surface that the middle of each pixel sees, for the overlays that show it. One pixel in size if no overlay does.
 pub(super) struct SurfaceImage {
     pub(super) image: Arc<Image>,
-    /// What it is of.
+    /// The view that the image was traced for, if it was.
     shows: Option<Seen>,
     has_layout: bool,
 }
 
-/// What a surface image depends on, besides the size: the lens is not among it.
+/// What a surface image depends on besides its size. It does not depend on the lens.
 #[derive(Clone, PartialEq)]
 pub(super) struct Seen {
     scene: SceneRef,
@@ -107,7 +107,7 @@ impl SurfaceImage {
         if shows_surface { settings.estimator.size } else { [1, 1] }
     }
 
-    /// Gives the image its layout, if it has none yet.
+    /// Clears the image once, which gives it its layout.
     pub(super) fn record_layout(&mut self, recording: &mut Recording<'_>) {
         if !self.has_layout {
             recording.clear(&self.image);
@@ -115,7 +115,7 @@ impl SurfaceImage {
         }
     }
 
-    /// Whether this view has still to be traced. From now on it counts as traced.
+    /// Whether this view has to be traced. It counts as traced from then on.
     pub(super) fn goes_to(&mut self, seen: Seen) -> bool {
         self.shows.replace(seen.clone()) != Some(seen)
     }

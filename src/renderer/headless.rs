@@ -7,10 +7,10 @@ use crate::error::Result;
 use crate::vulkan::{Buffer, Commands, Image, Recording, Residence};
 use std::time::Duration;
 
-/// How long a headless submission works: far below what desktop drivers kill a dispatch for.
+/// How long the device works on a headless submission: far less than the time after which desktop drivers stop one.
 const HEADLESS_BUDGET: Duration = Duration::from_millis(100);
 
-/// Images are read back in parts of about as many bytes: the largest do not fit into a buffer.
+/// Images are read back in parts of about this many bytes, because the largest images do not fit into one buffer.
 const READ_AT_ONCE: u64 = 1 << 26;
 
 impl Renderer {
@@ -20,7 +20,7 @@ impl Renderer {
         self.render_at(pace, on_progress)
     }
 
-    /// Renders until the target is reached, at another pace. `on_progress` is called after every submission.
+    /// Renders until the target is reached, at this pace. `on_progress` is called after every submission.
     pub fn render_at(&mut self, pace: Pace, mut on_progress: impl FnMut(&Progress)) -> Result<()> {
         let mut commands = Commands::new(&self.preparer.device)?;
         while !self.finished() {
@@ -34,7 +34,7 @@ impl Renderer {
         Ok(())
     }
 
-    /// The film: mean r, g, b and count of each pixel, row by row from the top left.
+    /// The film: the mean r, g, b and the number of samples of each pixel, row by row from the top left.
     pub fn read_film(&mut self) -> Result<Vec<[f32; 4]>> {
         let bytes = self.read_image(
             |images| &images.film,
@@ -43,7 +43,7 @@ impl Renderer {
         Ok(bytemuck::allocation::pod_collect_to_vec(&bytes))
     }
 
-    /// The picture: r, g, b, 255 of each pixel, sRGB, row by row from the top left.
+    /// The picture: r, g, b and 255 of each pixel in sRGB, row by row from the top left.
     pub fn read_picture(&mut self) -> Result<Vec<u8>> {
         self.read_image(
             |images| &images.picture,
@@ -51,7 +51,7 @@ impl Renderer {
         )
     }
 
-    /// Ends the merging under way, if any, so that all pixels of the film have the samples of whole batches.
+    /// Finishes a batch that is partly merged into the film, so that all pixels have the samples of whole batches.
     pub fn settle(&mut self) -> Result<()> {
         let mut commands = Commands::new(&self.preparer.device)?;
         let mut recording = commands.begin()?;
@@ -64,7 +64,7 @@ impl Renderer {
         commands.wait()
     }
 
-    /// A copy of the picture as it is now, which outlives it.
+    /// A copy of the picture as it is now.
     pub fn hold_picture(&mut self) -> Result<Image> {
         let held = Image::rgba8(&self.preparer.device, "held picture", self.picture().extent())?;
         let mut commands = Commands::new(&self.preparer.device)?;
@@ -78,7 +78,7 @@ impl Renderer {
         Ok(held)
     }
 
-    /// Reads an image back, once `prepare` is recorded.
+    /// Reads an image back, after the commands that `prepare` records.
     fn read_image(
         &mut self,
         choose: impl FnOnce(&FilmImages) -> &Image,

@@ -1,4 +1,4 @@
-//! All that a device has loaded for a picture.
+//! Everything that is on the device for a picture.
 
 use super::film::{FilmImages, SurfaceImage};
 use super::pick::Asked;
@@ -9,7 +9,7 @@ use crate::settings::Settings;
 use crate::vulkan::{BindingSet, FRAMES_IN_FLIGHT};
 use std::sync::Arc;
 
-/// What was prepared for the settings, the images of the film, and the passes between them.
+/// The parts that were prepared for the settings, the images, and the passes with their bindings.
 pub(super) struct Loaded {
     pub(super) prepared: Prepared,
     pub(super) images: FilmImages,
@@ -17,20 +17,20 @@ pub(super) struct Loaded {
     pub(super) passes: Passes,
 }
 
-/// The passes, each with what it reads and writes.
+/// The passes, each with the resources that are bound to it.
 pub(super) struct Passes {
     pub(super) trace: Bound<Trace>,
     pub(super) accumulate: Bound<Accumulate>,
-    /// Of adaptive pictures.
+    /// Only for adaptive pictures.
     pub(super) select: Option<Bound<Select>>,
     pub(super) resolve: BoundResolve,
-    /// For overlays that show surfaces.
+    /// Only for overlays that show surfaces.
     pub(super) geometry: Option<(Arc<Geometry>, BindingSet)>,
-    /// For questions.
+    /// Only if questions are asked.
     pub(super) pick: Option<BoundPick>,
 }
 
-/// A pass of the film's pixels, and what is bound to it by the list of active pixels that is read.
+/// A pass over the pixels of the film, with one set of bindings for each of the two lists of active pixels.
 pub(super) struct Bound<P> {
     pub(super) pass: Arc<P>,
     pub(super) by_list: [BindingSet; 2],
@@ -41,11 +41,11 @@ pub(super) struct BoundResolve {
     pub(super) with_holes: Arc<Resolve>,
     pub(super) overlay: Option<Arc<Resolve>>,
     pub(super) film: BindingSet,
-    /// Resolves the tracing image instead of the film.
+    /// Bindings that resolve the tracing image instead of the film.
     pub(super) preview: BindingSet,
 }
 
-/// What is asked in one of the frames in flight has a place of its own for the answer.
+/// The pass that answers questions. Each frame in flight has its own buffer for the answer.
 pub(super) struct BoundPick {
     pub(super) pass: Arc<Pick>,
     pub(super) frames: [(PickBindings, Option<Asked>); FRAMES_IN_FLIGHT],
@@ -59,8 +59,8 @@ impl Loaded {
         Ok(Self { prepared, images, surfaces, passes })
     }
 
-    /// Takes what was prepared for these settings, and keeps the images that fit them. What an error leaves is what
-    /// there was.
+    /// Uses these prepared parts from now on, and keeps the images if they fit the settings. After an error, everything is
+    /// as before.
     pub(super) fn replace(
         &mut self,
         preparer: &Preparer,
@@ -78,7 +78,7 @@ impl Loaded {
             images.as_ref().unwrap_or(&self.images),
             surfaces.as_ref().unwrap_or(&self.surfaces),
         )?;
-        // What frames in flight use goes only when they are done.
+        // Frames in flight use the old parts, so these can be dropped only once the device is idle.
         device.wait_idle()?;
         (self.passes, self.prepared) = (passes, prepared);
         images.into_iter().for_each(|images| self.images = images);
@@ -86,14 +86,14 @@ impl Loaded {
         Ok(())
     }
 
-    /// Whether nothing is to be replaced for these settings and what was prepared for them.
+    /// Whether these settings and prepared parts need nothing replaced.
     pub(super) fn fits(&self, settings: &Settings, prepared: &Prepared) -> bool {
         self.prepared.is(prepared) && self.images.fit(&settings.estimator) && self.surfaces.fits(settings)
     }
 }
 
 impl Passes {
-    /// Binds everything anew, which is soon done: so nothing that was replaced stays bound.
+    /// Makes all bindings anew, which is fast. So no binding can refer to a resource that was replaced.
     fn new(preparer: &Preparer, of: &Prepared, images: &FilmImages, surfaces: &SurfaceImage) -> Result<Self> {
         let FilmImages { traced, film, picture, adaptive, .. } = images;
         let surfaces = &surfaces.image;

@@ -1,10 +1,11 @@
-//! Owns the film, the scene on the device, and the passes. Knows no window and no file.
+//! Owns the film, the scene on the device, and the passes. It knows of no window and no file.
 //!
-//! Work is recorded in tiles whose time is bounded; whole batches are merged into the film.
-//! None of that changes the picture: see [`schedule`]. Every `Result` can have the errors of [`crate::vulkan`].
+//! Work is recorded in tiles, so that the time of a submission is bounded. Batches are merged into the film once they are
+//! whole. The picture does not depend on the tiles: see [`schedule`]. Every `Result` can have the errors of
+//! [`crate::vulkan`].
 //!
-//! What settings need is [`Prepared`], on any thread; with the images of the film it is `Loaded`; and [`Renderer`]
-//! records passes on it.
+//! [`Prepared`] holds the parts that settings need, and can be made on any thread. `Loaded` adds the images and the
+//! bindings. [`Renderer`] records the passes.
 
 mod film;
 mod headless;
@@ -34,14 +35,14 @@ use tally::Tally;
 /// How much to record at once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Pace {
-    /// About how long the device should work.
+    /// About how long the device should work on one submission.
     pub budget: Duration,
-    /// Whether a new picture starts with the whole view, coarsely where time is short, so that
-    /// there is always something to show.
+    /// Whether a new picture starts with a preview of the whole view, coarse if time is short, so that there is always
+    /// something to show.
     pub preview: bool,
 }
 
-/// Renders settings to a film, as far as it is asked to.
+/// Renders a picture with given settings, step by step.
 pub struct Renderer {
     preparer: Arc<Preparer>,
     loaded: Loaded,
@@ -50,32 +51,32 @@ pub struct Renderer {
     tally: Tally,
     blue_first: bool,
     max_batch: u32,
-    /// The largest batch that the scene's loops allow.
+    /// The largest batch that the loops of the scene allow on this device.
     largest_batch: u32,
 }
 
-/// How far a picture is.
+/// The progress of a picture.
 struct Standing {
-    /// Samples per pixel in the film, from whole batches.
+    /// Samples per pixel in the film. Only whole batches count.
     samples: u32,
-    /// The batch under way.
+    /// The position in the current batch, if one has begun.
     cursor: Option<Cursor>,
-    /// Which of the lists holds the active pixels, once some have stopped.
+    /// Which of the two lists holds the active pixels, once there is one.
     list: Option<usize>,
     filled_stride: u32,
     needs_clear: bool,
-    /// How the picture was resolved, and whether with holes, unless the film has changed since.
+    /// How the picture was resolved, and whether with holes. `None` if the film has changed since.
     resolved: Option<(ResolvePush, bool)>,
 }
 
 impl Standing {
-    /// Nothing is traced yet.
+    /// The start of a picture.
     const START: Self =
         Self { samples: 0, cursor: None, list: None, filled_stride: 1, needs_clear: true, resolved: None };
 }
 
 impl Renderer {
-    /// A renderer of these settings.
+    /// A renderer for these settings.
     ///
     /// # Errors
     /// As [`Self::set`].
@@ -83,7 +84,7 @@ impl Renderer {
         Self::with_shaders(device, Shaders::default(), settings)
     }
 
-    /// A renderer of these settings, with these shaders for its passes.
+    /// A renderer for these settings that uses these shaders.
     ///
     /// # Errors
     /// As [`Self::set`].
@@ -105,18 +106,18 @@ impl Renderer {
         })
     }
 
-    /// Cuts batches at other sample indices from the next one on: a power of two.
+    /// Sets the largest number of samples in a batch, a power of two, from the next batch on.
     pub fn set_max_batch(&mut self, max_batch: u32) {
         self.max_batch = max_batch;
     }
 
-    /// Whether a window wants b, g, r, a bytes of [`Self::picture`] from now on, or r, g, b, a.
+    /// Sets the order of the bytes of [`Self::picture`]: b, g, r, a if true, or else r, g, b, a.
     pub fn set_blue_first(&mut self, blue_first: bool) {
         self.blue_first = blue_first;
     }
 
-    /// What to render from now on. The film starts anew where the estimator changed, or where it
-    /// already holds more samples than wanted. After an error it is what it was before.
+    /// Sets what to render from now on. The film starts anew if the estimator has changed or the film has more samples than
+    /// wanted. After an error, everything is as before.
     ///
     /// # Errors
     /// [`crate::error::Error::OutOfRange`], [`crate::error::Error::Limit`], or those of
@@ -125,14 +126,14 @@ impl Renderer {
         self.set_and_answer(settings, self.loaded.prepared.answers())
     }
 
-    /// Does as [`Self::set`]. `answers` says whether questions are asked of the picture.
+    /// Works as [`Self::set`] does. `answers` says whether questions will be asked.
     fn set_and_answer(&mut self, settings: &Settings, answers: bool) -> Result<()> {
         settings.check()?;
         let prepared = self.preparer.prepare(settings, answers, Some(&self.loaded.prepared))?;
         self.load(settings, prepared)
     }
 
-    /// Does as [`Self::set`] with parts that were prepared for these settings, so that it takes no time. Parts that do not
+    /// Works as [`Self::set`] does, but uses parts that were prepared for these settings, so it is fast. Parts that do not
     /// fit the settings are made anew.
     ///
     /// # Errors
@@ -143,12 +144,12 @@ impl Renderer {
         self.load(settings, prepared)
     }
 
-    /// What makes ready what settings need, in another thread.
+    /// The preparer, which another thread can use to make the parts that settings need.
     pub fn preparer(&self) -> Arc<Preparer> {
         Arc::clone(&self.preparer)
     }
 
-    /// What is ready.
+    /// The prepared parts in use.
     pub fn prepared(&self) -> &Prepared {
         &self.loaded.prepared
     }
@@ -165,7 +166,7 @@ impl Renderer {
         }
         let last = std::mem::replace(&mut self.settings, settings.clone());
         let too_far = |cursor: &Cursor| cursor.batch.end() > settings.samples;
-        // What is half merged can neither be taken back nor be merged again.
+        // A batch that is partly merged can neither be undone nor be merged again.
         let merges_too_much = |cursor: &Cursor| too_far(cursor) && cursor.stage == Stage::Accumulate;
         if last.estimator != settings.estimator
             || settings.samples < self.standing.samples
@@ -185,17 +186,17 @@ impl Renderer {
         self.standing.samples >= self.settings.samples || self.progress().active_pixels == Some(0)
     }
 
-    /// How far it is.
+    /// The progress of the picture.
     pub fn progress(&self) -> Progress {
         self.tally.progress(self.standing.samples)
     }
 
-    /// Takes in what the device measured and counted while it ran `frame`, whose commands are done.
+    /// Collects what the device measured and counted in `frame`, whose commands must be done.
     pub fn collect(&mut self, frame: usize) -> Result<()> {
         self.tally.collect(frame)
     }
 
-    /// The resolved picture, as [`Renderer::record_resolve`] left it.
+    /// The picture that [`Renderer::record_resolve`] wrote last.
     pub fn picture(&self) -> &Image {
         &self.loaded.images.picture
     }

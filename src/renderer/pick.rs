@@ -1,4 +1,4 @@
-//! What lies under a place of the picture.
+//! Questions about a place of the picture: what is seen there, and which rays lead to it.
 
 use super::Renderer;
 use crate::error::Result;
@@ -9,56 +9,56 @@ use crate::scene;
 use crate::vulkan::{Commands, Recording};
 use glam::{DVec3, Vec3};
 
-/// A place of the picture, and how many rays are of interest there.
+/// A question about a place of the picture, and the number of rays wanted with the answer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Question {
-    /// In pixels from the picture's upper left corner.
+    /// The place, in pixels from the upper left corner of the picture.
     pub position: [f32; 2],
-    /// Rays of a fan up the lens, and of one across it: at least two each.
+    /// The number of rays in the fan on the vertical diameter of the lens, and in that on the horizontal one: at least two.
     pub fan: u32,
-    /// The first samples of the pixel.
+    /// The number of first samples of the pixel whose rays are wanted.
     pub samples: u32,
 }
 
 impl Question {
-    /// What is there, with the fewest rays.
+    /// A question about a place with as few rays as possible.
     pub fn at(position: [f32; 2]) -> Self {
         Self { position, fan: 2, samples: 0 }
     }
 }
 
-/// What a place of the picture shows.
+/// The answer to a [`Question`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picked {
-    /// What was asked.
+    /// The question.
     pub question: Question,
-    /// What is seen through the centre of the lens; none where the sky is.
+    /// The surface that is seen through the centre of the lens. `None` for the background.
     pub surface: Option<Surface>,
-    /// Where the centre ray meets the focal plane, as the device has it. Not finite without a lens.
+    /// The point where the centre ray meets the focal plane, as the device computes it. Not finite without a lens.
     pub focus: DVec3,
-    /// Through the centre of the lens, then those of the fan up, of the fan across, and the samples.
+    /// The ray through the centre of the lens, then the vertical fan, the horizontal fan, and the samples.
     pub rays: Vec<LensRay>,
 }
 
 /// A ray from a point of the lens.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LensRay {
-    /// The point of the lens.
+    /// The point of the lens where the ray starts.
     pub origin: DVec3,
-    /// Unit length.
+    /// The direction, of unit length.
     pub direction: DVec3,
-    /// The distance to what it meets; infinite where that is nothing.
+    /// The distance to the surface that the ray hits, or infinity.
     pub distance: f64,
 }
 
 /// A point of a surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surface {
-    /// In the world.
+    /// The point in world coordinates.
     pub point: DVec3,
-    /// Its depth along the optical axis, in scene units: the focal distance at which it is in focus.
+    /// The depth along the optical axis, in scene units. The point is in focus at this focal distance.
     pub depth: f64,
-    /// The name of its material.
+    /// The name of the material.
     pub material: String,
 }
 
@@ -70,28 +70,28 @@ pub(super) struct Asked {
 }
 
 impl Picked {
-    /// The rays of the fan up the lens, from its lower rim to its upper one.
+    /// The rays of the vertical fan, from the lower rim of the lens to the upper one.
     pub fn fan_up(&self) -> &[LensRay] {
         let fan = self.question.fan as usize;
         &self.rays[1..=fan]
     }
 
-    /// The rays of the fan across the lens, from left to right.
+    /// The rays of the horizontal fan, from left to right.
     pub fn fan_across(&self) -> &[LensRay] {
         let fan = self.question.fan as usize;
         &self.rays[1 + fan..=2 * fan]
     }
 
-    /// The first samples of the pixel.
+    /// The rays of the first samples of the pixel.
     pub fn samples(&self) -> &[LensRay] {
         &self.rays[1 + 2 * self.question.fan as usize..]
     }
 }
 
 impl Renderer {
-    /// Records a question. A place outside the picture is moved to its edge, and no more rays are traced than
-    /// [`Pick`] has room for. [`Renderer::picked`] has the answer once the commands of `frame` are done. False where
-    /// nothing was prepared for questions: then none is recorded.
+    /// Records a question. A place outside the picture is moved to its edge, and at most as many rays are traced as [`Pick`]
+    /// has room for. [`Renderer::picked`] returns the answer once the commands of `frame` are done. Returns false, and
+    /// records nothing, if the renderer was not prepared for questions.
     pub fn record_pick(&mut self, recording: &mut Recording<'_>, frame: usize, question: Question) -> bool {
         self.record_aperture(recording);
         let Some(pick) = &mut self.loaded.passes.pick else {
@@ -99,7 +99,7 @@ impl Renderer {
         };
         let estimator = &self.settings.estimator;
         let extent = estimator.size;
-        // The last f32 below the extent still has a pixel.
+        // The position must stay below the extent, because there is no pixel at the extent itself.
         let inside = |axis: usize| question.position[axis].clamp(0.0, (extent[axis] as f32).next_down());
         let question = Question {
             position: [inside(0), inside(1)],
@@ -117,8 +117,8 @@ impl Renderer {
         true
     }
 
-    /// The answer of `frame`, whose commands are done: once, and none where none was asked for, or where
-    /// something else has been loaded since.
+    /// The answer to the question of `frame`, whose commands must be done. `None` if the frame had no question, if the answer
+    /// was returned already, or if something else has been loaded since.
     pub fn picked(&mut self, frame: usize) -> Option<Picked> {
         let (bindings, asked) = &mut self.loaded.passes.pick.as_mut()?.frames[frame];
         let Asked { question, camera } = asked.take()?;
@@ -143,7 +143,7 @@ impl Renderer {
         Some(Picked { question, surface, focus, rays })
     }
 
-    /// What is at a place of the picture, at once, without a window.
+    /// Answers a question at once, without a window.
     ///
     /// # Errors
     /// As [`Renderer::set`].

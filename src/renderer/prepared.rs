@@ -1,5 +1,5 @@
-//! What settings need on a device besides a film: pipelines and buffers. They take long to make, and any thread can
-//! make them while another one renders.
+//! The parts that settings need on a device besides the images: pipelines and buffers. They take long to make, and any
+//! thread can make them while another one renders.
 
 use super::schedule::{self, MAX_BATCH};
 use crate::error::{Error, Result};
@@ -13,7 +13,7 @@ use crate::settings::{Estimator, Settings};
 use crate::vulkan::{Buffer, Device, Residence};
 use std::sync::Arc;
 
-/// Makes it. Holds what is the same for all settings.
+/// Makes [`Prepared`]. Holds the parts that are the same for all settings.
 pub struct Preparer {
     pub(super) device: Arc<Device>,
     shaders: Shaders,
@@ -23,7 +23,7 @@ pub struct Preparer {
     pub(super) resolve_with_holes: Arc<Resolve>,
 }
 
-/// What was made for some settings. Copies share it.
+/// The parts that were made for some settings. Clones share them.
 #[derive(Clone)]
 pub struct Prepared {
     keys: Keys,
@@ -31,17 +31,17 @@ pub struct Prepared {
     pub(super) aperture: Arc<ApertureBuffers>,
     pub(super) trace: Arc<Trace>,
     pub(super) accumulate: Arc<Accumulate>,
-    /// For adaptive pictures.
+    /// Only for adaptive pictures.
     pub(super) select: Option<Arc<Select>>,
-    /// For overlays.
+    /// Only for overlays.
     pub(super) resolve_overlay: Option<Arc<Resolve>>,
-    /// For overlays that show surfaces.
+    /// Only for overlays that show surfaces.
     pub(super) geometry: Option<Arc<Geometry>>,
-    /// For questions.
+    /// Only if questions are asked.
     pub(super) pick: Option<Arc<Pick>>,
 }
 
-/// What each part is made for. A part is made anew exactly when its key changes.
+/// The values that the parts depend on. A part is made anew exactly when its key changes.
 #[derive(Clone, PartialEq)]
 pub struct Keys {
     scene: SceneKey,
@@ -60,12 +60,12 @@ pub struct Keys {
 #[derive(Clone, PartialEq)]
 struct SceneKey {
     scene: SceneRef,
-    /// How long the shutter is open, where something moves: the tree holds all that its shapes pass meanwhile.
+    /// How long the shutter is open, if anything moves: the boxes of the tree enclose all that a shape passes meanwhile.
     shutter: Option<f32>,
 }
 
 impl Keys {
-    /// Of these settings. `answers`: whether questions are asked of the picture.
+    /// The keys of these settings. `answers` says whether questions will be asked.
     pub fn new(settings: &Settings, answers: bool) -> Self {
         let Settings { estimator, view, .. } = settings;
         let scene = estimator.scene.clone();
@@ -97,10 +97,11 @@ impl Preparer {
         })
     }
 
-    /// Makes what these settings need, and shares what `old` has of it. `answers`: as for [`Keys::new`].
+    /// Makes the parts that these settings need, and shares those that `old` has already. `answers` says whether questions
+    /// will be asked.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] where the device cannot trace the scene, [`Error::Limit`], or those of
+    /// [`Error::OutOfRange`] if the device cannot trace the scene, [`Error::Limit`], or those of
     /// [`crate::vulkan`].
     pub fn prepare(&self, settings: &Settings, answers: bool, old: Option<&Prepared>) -> Result<Prepared> {
         let keys = Keys::new(settings, answers);
@@ -110,7 +111,7 @@ impl Preparer {
         let scene = share_or(same.map(|old| &old.scene), || {
             SceneBuffers::new(device, &SceneData::new(&keys.scene.scene, settings.estimator.shutter))
         })?;
-        // A driver may not be able to compile the passes for a scene that is refused.
+        // A scene that is too large must be refused first: a driver might fail to compile the passes for it.
         self.largest_batch(&scene, &settings.estimator)?;
 
         let same = old.filter(|old| old.keys.aperture == keys.aperture);
@@ -149,7 +150,7 @@ impl Preparer {
         Ok(Prepared { keys, scene, aperture, trace, accumulate, select, resolve_overlay, geometry, pick })
     }
 
-    /// The largest batch that the loops of a device may go through in one invocation of the trace pass.
+    /// The largest batch whose loops stay within the limit of the device in one invocation of the trace pass.
     pub(super) fn largest_batch(&self, scene: &SceneBuffers, estimator: &Estimator) -> Result<u32> {
         let steps = scene.most_loop_steps(estimator.max_bounces);
         let Some(most) = self.device.traits().max_loop_steps else {
@@ -166,25 +167,25 @@ impl Preparer {
 }
 
 impl Prepared {
-    /// Whether it is all that these settings need.
+    /// Whether these parts are what the settings need.
     pub fn fits(&self, settings: &Settings, answers: bool) -> bool {
         self.keys == Keys::new(settings, answers)
     }
 
-    /// Whether all parts are the same.
+    /// Whether all parts are the same as those of the other.
     pub(super) fn is(&self, other: &Self) -> bool {
         self.keys == other.keys
             && Arc::ptr_eq(&self.scene, &other.scene)
             && Arc::ptr_eq(&self.aperture, &other.aperture)
     }
 
-    /// Whether questions can be asked of the picture.
+    /// Whether questions can be asked.
     pub fn answers(&self) -> bool {
         self.keys.answers
     }
 }
 
-/// What there is, or else what is made.
+/// Shares the part if there is one, or else makes it.
 fn share_or<T>(there: Option<&Arc<T>>, make: impl FnOnce() -> Result<T>) -> Result<Arc<T>> {
     match there {
         Some(there) => Ok(Arc::clone(there)),

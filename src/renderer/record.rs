@@ -1,4 +1,4 @@
-//! Records the passes, in the order of the data.
+//! Records the passes in the order in which data flows through them.
 
 use super::film::Seen;
 use super::loaded::Loaded;
@@ -13,15 +13,15 @@ use crate::gpu_types::{
 use crate::passes::Adaptive;
 use crate::vulkan::Recording;
 
-/// Small pictures would otherwise record thousands of tiles for one submission.
+/// The most tiles in one submission. Without this limit, a small picture would need thousands.
 const MAX_TILES_PER_SUBMISSION: u32 = 64;
 
 impl Renderer {
-    /// Records the next batches and tiles, as many as `pace` allows. `frame` says which of the
-    /// frames in flight this is; [`Renderer::collect`] must have been called for its last use.
+    /// Records the next tiles, as many as `pace` allows. `frame` is the number of the frame in flight;
+    /// [`Renderer::collect`] must have been called for its last use.
     pub fn record(&mut self, recording: &mut Recording<'_>, frame: usize, pace: Pace) {
         recording.barrier();
-        // A preview shows no more of the tracing image than what it has filled.
+        // A preview shows only the part of the tracing image that has been filled.
         self.record_clear(recording, !pace.preview);
         self.record_aperture(recording);
         recording.clear_buffer(&self.preparer.counters, size_of::<Counters>() as u64);
@@ -34,7 +34,7 @@ impl Renderer {
     }
 
     fn record_tiles(&mut self, recording: &mut Recording<'_>, pace: Pace) -> Work {
-        // Rays are counted in 32 bits a submission.
+        // The rays of a submission are counted in 32 bits.
         let most_rays = self.loaded.prepared.scene.most_rays(self.settings.estimator.max_bounces);
         let budget = self.tally.work_within(pace.budget).min(u64::from(u32::MAX / most_rays));
         let mut left = budget;
@@ -45,17 +45,17 @@ impl Renderer {
                 break;
             }
             let cursor = self.next_cursor(left, pace.preview);
-            // The first lattice of a preview is traced whole: without it there is nothing to show.
+            // The first lattice of a preview is traced whole, because without it there is nothing to show.
             let tile = self.tile(cursor, left, pace.preview && self.nothing_to_show());
             self.record_tile(recording, &tile);
             done.samples += tile.work.samples;
             done.cost += tile.work.cost;
             left = left.saturating_sub(tile.work.cost);
-            // How many pixels go on is known once this is done.
+            // The number of active pixels is known only once this submission is done.
             if self.standing.list != list_before {
                 break;
             }
-            // The first tile is recorded whatever it costs; for a small rest no other one is.
+            // The first tile is recorded whatever it costs. Another tile is not worth it for a small rest of the budget.
             if left <= budget / 8 && !(pace.preview && self.nothing_to_show()) {
                 break;
             }
@@ -63,7 +63,7 @@ impl Renderer {
         done
     }
 
-    /// Records the pass that a tile is of.
+    /// Records the pass for a tile.
     pub(super) fn record_tile(&mut self, recording: &mut Recording<'_>, tile: &Tile) {
         let Loaded { passes, images, .. } = &self.loaded;
         let estimator = &self.settings.estimator;
@@ -95,7 +95,7 @@ impl Renderer {
                 };
                 passes.accumulate.pass.record(recording, &passes.accumulate.by_list[list], &push, size);
             }
-            // From the film to the list of the pixels that go on.
+            // From the film to the list of active pixels.
             Stage::Select => {
                 if cursor.at == [0, 0] {
                     recording.clear_buffer(images.adaptive.list(1 - list), Adaptive::LIST_HEADER);
@@ -151,7 +151,7 @@ impl Renderer {
         self.standing.resolved = Some((push, has_holes));
     }
 
-    /// Finds what each pixel's middle sees, if an overlay needs it and it is not of this view.
+    /// Records the geometry pass, if an overlay needs it and the surface image is not up to date.
     fn record_surfaces(&mut self, recording: &mut Recording<'_>) {
         let Loaded { passes, surfaces, .. } = &mut self.loaded;
         let estimator = &self.settings.estimator;
@@ -165,7 +165,7 @@ impl Renderer {
         }
     }
 
-    /// Writes the shape of the aperture.
+    /// Records the upload of the shape of the aperture.
     pub(super) fn record_aperture(&self, recording: &mut Recording<'_>) {
         let shape = ApertureBuffer::new(&self.settings.estimator);
         self.loaded.prepared.aperture.record(recording, &shape);

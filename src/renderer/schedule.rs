@@ -1,51 +1,51 @@
-//! Which samples of which pixels are traced next. Pure numbers: no device, no time.
+//! The order in which the samples of the pixels are traced. It is computed without a device and without a clock.
 //!
-//! A batch is some samples of every pixel of a lattice. Batches are cut at fixed sample indices,
-//! so that the same samples are averaged in the same groups however the work is tiled.
+//! A batch is a range of samples of every pixel of a lattice. Batches are cut at fixed sample indices, so that the same
+//! samples are averaged in the same groups however the work is divided into tiles.
 
 use crate::gpu_types::Lattice;
 use crate::interface::{GROUP_SIZE, LISTED_ROW_GROUPS, PREVIEW_SITE, PREVIEW_STRIDE};
 
-/// Samples a pixel in one batch, once a picture is under way.
+/// Samples per pixel in a batch, after the first batches of a picture.
 pub const MAX_BATCH: u32 = 64;
 
-/// Where the first batches end: soon, so that there is something to see, and then less and less often, for
-/// every batch takes its start.
+/// Where the first batches end. The first ones are short so that there is something to see soon. Later ones are longer,
+/// because every batch has a fixed cost.
 const FIRST_CUTS: [u32; 5] = [1, 4, 16, 32, MAX_BATCH];
 
-/// An adaptive picture chooses the pixels to go on with whenever it has so many samples a pixel more, but
-/// first when it has twice as many: fewer may all miss what is there.
+/// In an adaptive picture, active pixels are selected each time after this many samples per pixel, but for the first time
+/// after twice as many: fewer samples could all miss a small feature.
 pub const SELECT_EVERY: u32 = 16;
 
-/// Whether pixels may stop at so many samples.
+/// Whether active pixels are selected after this many samples.
 pub fn selects_at(samples: u32) -> bool {
     samples >= 2 * SELECT_EVERY && samples.is_multiple_of(SELECT_EVERY)
 }
 
-/// Pixels of the list of active ones that a row of tiles covers, for each row of a workgroup.
+/// The number of listed pixels in a row of invocations, when the list of active pixels is traced.
 const LISTED_ROW: u32 = LISTED_ROW_GROUPS * GROUP_SIZE;
 
-/// The columns and rows that a list of so many active pixels is traced in.
+/// The columns and rows of invocations that trace a list of this many active pixels.
 pub fn listed_size(pixels: u64) -> [u32; 2] {
     let rows = pixels.div_ceil(u64::from(LISTED_ROW * GROUP_SIZE));
     [LISTED_ROW, u32::try_from(rows).unwrap_or(u32::MAX) * GROUP_SIZE]
 }
 
-/// What a dispatch over the list covers, from the tile's column and row on.
+/// The lattice of a dispatch over the list, from the tile's column and row on.
 pub fn listed_lattice(size: [u32; 2], at: [u32; 2]) -> Lattice {
     let origin = [at[1] * LISTED_ROW + at[0] * GROUP_SIZE, 0];
     Lattice { extent: size, origin, stride: 0, first_row: 0, row_step: 1, row_count: 1 }
 }
 
-/// The largest batch, a power of two, whose loops go round `most` times at most if those of every sample go round
-/// `steps` times. None if not even one sample's do.
+/// The largest batch, a power of two, whose loops take at most `most` steps, if each sample takes `steps`. `None` if one
+/// sample takes too many already.
 pub fn largest_batch(steps: u64, most: u64) -> Option<u32> {
     let most = u32::try_from(most / (steps + 1)).ok()?;
     most.checked_ilog2().map(|power| 1 << power)
 }
 
-/// The order in which the interleaved first sample fills a cell of 4 x 4 pixels. The first four
-/// phases are every second pixel both ways.
+/// The order in which the pixels of a cell of 4 x 4 pixels get their first sample in a preview. The first four are every
+/// second pixel on both axes.
 const PHASES_OF_16: [[u32; 2]; 16] = [
     [2, 2],
     [0, 0],
@@ -74,34 +74,34 @@ const PHASES_OF_4: [[u32; 2]; 4] = [[0, 0], [1, 1], [1, 0], [0, 1]];
 pub struct Batch {
     /// Index of the first sample.
     pub first_sample: u32,
-    /// How many.
+    /// The number of samples.
     pub sample_count: u32,
-    /// Distance between the lattice's pixels.
+    /// The distance between neighbouring pixels of the lattice.
     pub stride: u32,
-    /// Which of the `stride * stride` lattices, in their order.
+    /// The number of the lattice among the `stride * stride` ones, in their order.
     pub phase: u32,
 }
 
-/// What is done with a batch, each tile by tile.
+/// The stages of a batch. Each is done tile by tile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
-    /// It is traced.
+    /// The batch is traced.
     Trace,
-    /// If it was the last one of its samples, it is merged into the film.
+    /// The batch is merged into the film, if it was the last lattice of its samples.
     Accumulate,
-    /// The pixels to go on with are listed.
+    /// The active pixels are listed.
     Select,
 }
 
-/// Where the work stands.
+/// A position in the work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Cursor {
-    /// The batch under way.
+    /// The current batch.
     pub batch: Batch,
-    /// What is done with it.
+    /// The current stage of the batch.
     pub stage: Stage,
-    /// Column and row where the next tile starts: of the lattice while tracing, else of the film; or of the
-    /// list of active pixels, once there is one (see [`listed_size`]).
+    /// The column and row where the next tile starts: in the lattice while tracing, otherwise in the film. Once there is a
+    /// list of active pixels, in the list (see [`listed_size`]).
     pub at: [u32; 2],
 }
 
@@ -111,7 +111,7 @@ impl Cursor {
         Self { batch, stage: Stage::Trace, at: [0, 0] }
     }
 
-    /// What follows when the batch is traced.
+    /// The position after the batch is traced.
     pub fn after_tracing(self) -> Self {
         match self.batch.next_phase() {
             Some(next) => Self::start(next),
@@ -124,22 +124,22 @@ impl Cursor {
         Self { stage, ..Self::start(self.batch) }
     }
 
-    /// Whether it is still tracing the first lattice of its samples.
+    /// Whether the first lattice of the samples is still being traced.
     pub fn is_first_lattice(self) -> bool {
         self.batch.phase == 0 && self.stage == Stage::Trace
     }
 }
 
 impl Batch {
-    /// The batch that starts at `first_sample`, of every pixel: cut at 1, 4, 16, 32, 64 as far as
-    /// `max_batch`, then at every `max_batch` samples, and at `target`.
+    /// The batch of every pixel that starts at `first_sample`. Batches end at 1, 4, 16, 32 and 64 samples, as far as
+    /// `max_batch`, then at every multiple of `max_batch`, and at `target`.
     pub fn whole(first_sample: u32, target: u32, max_batch: u32) -> Self {
         let early = FIRST_CUTS.into_iter().find(|cut| *cut > first_sample && *cut <= max_batch);
         let cut = early.unwrap_or((first_sample / max_batch + 1) * max_batch);
         Self { first_sample, sample_count: cut.min(target) - first_sample, stride: 1, phase: 0 }
     }
 
-    /// The first sample alone, of the first lattice of this stride (1, 2 or 4).
+    /// The first sample of the first lattice with this stride (1, 2 or 4).
     pub fn interleaved(stride: u32) -> Self {
         Self { first_sample: 0, sample_count: 1, stride, phase: 0 }
     }
@@ -150,12 +150,12 @@ impl Batch {
         (phase < self.stride * self.stride).then_some(Self { phase, ..self })
     }
 
-    /// The sample index that the film has reached after this batch, if it is its last phase.
+    /// The number of samples in the film after this batch, if it is the last lattice.
     pub fn end(self) -> u32 {
         self.first_sample + self.sample_count
     }
 
-    /// The stride of a lattice that is filled once this batch is traced: what a preview can rely on.
+    /// The stride of the finest lattice that is filled once this batch is traced. A preview can show this lattice.
     pub fn filled_stride(self) -> u32 {
         match (self.stride, self.phase) {
             (4, 0..3) => 4,
@@ -165,7 +165,7 @@ impl Batch {
         }
     }
 
-    /// The lattice's pixels, in a picture of this size.
+    /// The pixels of the lattice in a picture of this size.
     pub fn lattice(self, size: [u32; 2]) -> Lattice {
         let origin = match self.stride {
             4 => PHASES_OF_16[self.phase as usize],
@@ -177,15 +177,15 @@ impl Batch {
         Lattice { extent: size, origin, stride, first_row: 0, row_step: row_step(row_count), row_count }
     }
 
-    /// How many columns and rows of pixels the lattice has.
+    /// The number of columns and rows of the lattice.
     pub fn lattice_size(self, size: [u32; 2]) -> [u32; 2] {
         let origin = self.lattice(size).origin;
         [0, 1].map(|axis| size[axis].saturating_sub(origin[axis]).div_ceil(self.stride))
     }
 }
 
-/// How far apart rows of workgroups are visited, so that any run of visits is spread over the whole picture: about the
-/// golden section of their number, and without a divisor in common with it.
+/// The step from one visited row of workgroups to the next, so that consecutive visits are spread over the whole picture.
+/// It is about the golden section of the number of rows, and has no divisor in common with it.
 fn row_step(count: u32) -> u32 {
     let near = (0.618_034 * f64::from(count)).round() as u32;
     let common_divisor = |mut a: u32, mut b: u32| {
@@ -198,8 +198,8 @@ fn row_step(count: u32) -> u32 {
     around.into_iter().find(|step| *step > 0 && common_divisor(*step, count) == 1).unwrap_or(1)
 }
 
-/// The rows of pixels in `rows` rows of a tile that starts at the row `from`, in the order of the visits, of a lattice
-/// with `height` rows: the last row of workgroups may have fewer, whenever it is visited.
+/// The number of rows of pixels in a tile of `rows` rows that starts at the row `from` in the order of visits, in a lattice
+/// with `height` rows. The last row of workgroups may have fewer rows of pixels, whenever it is visited.
 pub fn rows_of_pixels(lattice: &Lattice, height: u32, from: u32, rows: u32) -> u32 {
     let visits = from / GROUP_SIZE..(from + rows).div_ceil(GROUP_SIZE).min(lattice.row_count);
     let missing = height.next_multiple_of(GROUP_SIZE) - height;
@@ -207,9 +207,9 @@ pub fn rows_of_pixels(lattice: &Lattice, height: u32, from: u32, rows: u32) -> u
     (visits.len() as u32 * GROUP_SIZE).saturating_sub(if shorter { missing } else { 0 })
 }
 
-/// The columns and rows of the next tile, in a lattice of `size`, of which everything before
-/// `at` is done: as many whole rows as `pixels` allows, or else a piece of a row of workgroups.
-/// Tiles are cut at multiples of the workgroup's size, and hold one workgroup at least.
+/// The columns and rows of the tile that starts at `at`, in a lattice of `size`: as many whole rows as `pixels` allows, or
+/// else a part of a row of workgroups. Tiles are cut at multiples of the size of a workgroup, and have at least one
+/// workgroup.
 pub fn tile(size: [u32; 2], at: [u32; 2], pixels: u64) -> [u32; 2] {
     let whole = |count: u64| u32::try_from(count).unwrap_or(u32::MAX) / GROUP_SIZE * GROUP_SIZE;
     let left = [0, 1].map(|axis| size[axis].saturating_sub(at[axis]));
@@ -221,16 +221,15 @@ pub fn tile(size: [u32; 2], at: [u32; 2], pixels: u64) -> [u32; 2] {
     [columns.min(left[0]), GROUP_SIZE.min(left[1])]
 }
 
-/// Where the next tile starts, after one of `done` columns and rows at `at`. None when the lattice
-/// is done.
+/// Where the next tile starts, after one at `at` with `done` columns and rows. `None` if the lattice is done.
 pub fn after_tile(size: [u32; 2], at: [u32; 2], done: [u32; 2]) -> Option<[u32; 2]> {
     let next = if at[0] + done[0] < size[0] { [at[0] + done[0], at[1]] } else { [0, at[1] + done[1]] };
     (done[1] > 0 && next[1] < size[1]).then_some(next)
 }
 
-/// How far from its start pixel a sample can land, in pixels.
+/// The largest distance in pixels between the pixel of a sample and the pixel that it lands in.
 pub fn reach(jitter: f32) -> u32 {
-    // The range of jitter is small and checked, so the cast is exact.
+    // Jitter is checked to be small, so the cast is exact.
     (0.5 * jitter - 0.5).ceil().max(0.0) as u32
 }
 

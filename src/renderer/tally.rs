@@ -1,4 +1,4 @@
-//! What was counted and measured on the device.
+//! What the device counts and how long it takes.
 
 use crate::error::Result;
 use crate::gpu_types::Counters;
@@ -7,38 +7,39 @@ use crate::vulkan::{Buffer, Device, FRAMES_IN_FLIGHT, Recording, Residence, Time
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// What a unit of work takes is assumed until a submission was measured: slow enough for a software device, in a
-/// scene without a tree and in one with it.
+/// The assumed time of a unit of work until a submission has been measured, for scenes without and with a tree. It is long
+/// enough for a software device.
 const UNMEASURED_NANOSECONDS: [f64; 2] = [50.0, 400.0];
 
-/// How many of the last submissions say how fast the device is: one that met little says nothing of the next.
+/// The speed of the device is the lowest of this many submissions: one submission may have covered an easy part of the
+/// picture.
 const MEASUREMENTS: usize = 4;
 
-/// How far a picture is.
+/// The progress of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Progress {
-    /// Samples per pixel in the film, from whole passes.
+    /// Samples per pixel in the film. Only whole batches count.
     pub samples: u32,
     /// Samples traced for this picture, over all pixels.
     pub traced: u64,
-    /// Rays traced for them, shadow rays among them.
+    /// Rays traced for these samples, including shadow rays.
     pub rays: u64,
-    /// Samples that were not finite, and so not averaged in.
+    /// Samples that were left out because they were not finite.
     pub rejected_samples: u64,
-    /// How long the device worked on them.
+    /// How long the device worked on this picture.
     pub device_time: Duration,
-    /// The longest that it worked on one submission.
+    /// The longest time that the device worked on one submission.
     pub longest_submission: Duration,
-    /// How many pixels are still traced, at most: of an adaptive picture, once some have stopped.
+    /// The largest possible number of active pixels, in an adaptive picture once they have been listed.
     pub active_pixels: Option<u64>,
 }
 
-/// What a submission does.
+/// The amount of work in a submission.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Work {
-    /// Samples it traces, but for those of listed pixels.
+    /// The samples that it traces, without those of listed pixels.
     pub(super) samples: u64,
-    /// What it costs, all told, in samples traced.
+    /// The cost of everything in it. The unit is the cost of tracing a sample.
     pub(super) cost: u64,
 }
 
@@ -46,11 +47,11 @@ pub(super) struct Work {
 pub(super) struct Tally {
     frames: Vec<Frame>,
     sum: Progress,
-    /// What a unit of work took in the last submissions, the last one first.
+    /// The time of a unit of work in each of the last submissions, the latest first.
     nanoseconds_per_unit: Vec<f64>,
-    /// See [`UNMEASURED_NANOSECONDS`].
+    /// The assumed time of a unit of work: see [`UNMEASURED_NANOSECONDS`].
     unmeasured: f64,
-    /// Told apart by number, so that frames in flight do not count for a later picture.
+    /// The number of the picture, so that frames in flight do not count for the next picture.
     picture: u64,
     /// Whether a sample of this scene was rejected, in any picture.
     saw_rejected_samples: bool,
@@ -64,12 +65,12 @@ struct Frame {
     pending: Option<Pending>,
 }
 
-/// A submission under way.
+/// A submission that is not done yet.
 struct Pending {
     picture: u64,
     work: Work,
     started: Instant,
-    /// Whether it lists the active pixels anew.
+    /// Whether it makes a new list of active pixels.
     lists: bool,
 }
 
@@ -108,14 +109,15 @@ impl Tally {
         self.picture += 1;
     }
 
-    /// Another scene: what was measured says nothing of it.
+    /// Forgets the measurements, because they do not apply to another scene.
     pub(super) fn forget_scene(&mut self, has_tree: bool) {
         self.nanoseconds_per_unit.clear();
         self.unmeasured = UNMEASURED_NANOSECONDS[usize::from(has_tree)];
         self.saw_rejected_samples = false;
     }
 
-    /// How much the device can do in this time, in samples traced, by the worst of the last measurements.
+    /// The amount of work that the device can do in this time, by the slowest of the last measurements. The unit is the cost
+    /// of tracing a sample.
     pub(super) fn work_within(&self, budget: Duration) -> u64 {
         let worst = self.nanoseconds_per_unit.iter().copied().reduce(f64::max);
         (budget.as_nanos() as f64 / worst.unwrap_or(self.unmeasured)) as u64
@@ -125,7 +127,7 @@ impl Tally {
         recording.start(&self.frames[frame].timer);
     }
 
-    /// `list`: of the active pixels, if the submission has made it.
+    /// Ends the measurement. `list` is the new list of active pixels, if the submission makes one.
     pub(super) fn stop(
         &mut self,
         recording: &mut Recording<'_>,
@@ -150,10 +152,10 @@ impl Tally {
         let Some(Pending { picture, work, started, lists }) = frame.pending.take() else {
             return Ok(());
         };
-        // Without a clock on the queue, the host's has to do.
+        // A queue without timestamps is measured with the clock of the host.
         let elapsed = frame.timer.elapsed()?.unwrap_or_else(|| started.elapsed());
         if work.cost > 0 {
-            // A clock that reads too little must not lead to a dispatch of seconds.
+            // If the measured time is far too short, the next dispatch must not take seconds.
             let least = self.nanoseconds_per_unit.first().unwrap_or(&self.unmeasured) / 8.0;
             let measured = elapsed.as_nanos() as f64 / work.cost as f64;
             self.nanoseconds_per_unit.insert(0, measured.max(least));
@@ -175,7 +177,7 @@ impl Tally {
         Ok(())
     }
 
-    /// Whether pixels can have fewer samples than were traced for them.
+    /// Whether some pixels may have fewer samples than were traced for them.
     pub(super) fn saw_rejected_samples(&self) -> bool {
         self.saw_rejected_samples
     }

@@ -1,4 +1,4 @@
-//! Which tile is recorded next, and what comes after it.
+//! Chooses the next tile to record, and what comes after it.
 
 use super::Renderer;
 use super::schedule::{self, Batch, Cursor, Stage, reach};
@@ -7,19 +7,19 @@ use crate::gpu_types::Lattice;
 use crate::interface::GROUP_SIZE;
 use crate::settings::Estimator;
 
-/// What choosing a pixel costs, in samples traced: it looks at nine.
+/// The cost of the select pass for a pixel, which reads nine texels. The unit is the cost of tracing a sample.
 const SELECT_COST: f64 = 1.0;
 
-/// A part of what a stage of a batch goes over, which one dispatch does.
+/// The part of a stage of a batch that one dispatch does.
 pub(super) struct Tile {
     pub(super) cursor: Cursor,
-    /// Its pixels.
+    /// The pixels of the tile.
     pub(super) lattice: Lattice,
     /// Columns and rows of invocations.
     pub(super) size: [u32; 2],
     pub(super) pixels: u64,
     pub(super) work: Work,
-    /// Where the next one of the stage starts, if there is one.
+    /// Where the next tile of the stage starts, if there is one.
     pub(super) next: Option<[u32; 2]>,
 }
 
@@ -28,12 +28,12 @@ impl Renderer {
         self.standing.samples == 0 && self.standing.cursor.is_none_or(Cursor::is_first_lattice)
     }
 
-    /// Where the batch under way stands, or the start of the next one.
+    /// The position in the current batch, or the start of the next batch.
     pub(super) fn next_cursor(&self, left: u64, preview: bool) -> Cursor {
         self.standing.cursor.unwrap_or_else(|| Cursor::start(self.next_batch(left, preview)))
     }
 
-    /// The tile at a cursor, for about `left` units of work, or all that is left of the stage if `whole`.
+    /// The tile that starts at a cursor, with about `left` units of work, or with the whole rest of the stage if `whole`.
     pub(super) fn tile(&self, cursor: Cursor, left: u64, whole: bool) -> Tile {
         let estimator = &self.settings.estimator;
         let Cursor { batch, stage, at } = cursor;
@@ -49,7 +49,7 @@ impl Renderer {
         let area = if is_listed {
             schedule::listed_size(self.most_active(estimator))
         } else {
-            // Whole rows of workgroups, for the last one is not visited last.
+            // The area has whole rows of workgroups, because the last row of the picture is not visited last.
             [width, height.next_multiple_of(GROUP_SIZE)]
         };
         let size = if whole { area } else { schedule::tile(area, at, (left as f64 / cost) as u64) };
@@ -59,7 +59,7 @@ impl Renderer {
             (of_picture.from_tile(at), schedule::rows_of_pixels(&of_picture, height, at[1], size[1]))
         };
         let pixels = u64::from(size[0]) * u64::from(rows);
-        // The device counts those of listed pixels itself.
+        // The device itself counts the samples of listed pixels.
         let counted = stage == Stage::Trace && !is_listed;
         let work = Work {
             samples: if counted { pixels * u64::from(batch.sample_count) } else { 0 },
@@ -68,7 +68,7 @@ impl Renderer {
         Tile { cursor, lattice, size, pixels, work, next: schedule::after_tile(area, at, size) }
     }
 
-    /// Goes on behind a tile that is recorded.
+    /// Moves to what follows a tile that was recorded.
     pub(super) fn advance(&mut self, tile: &Tile) {
         let Cursor { batch, stage, .. } = tile.cursor;
         let standing = &mut self.standing;
@@ -99,7 +99,7 @@ impl Renderer {
         let [width, height] = estimator.size.map(u64::from);
         if preview && self.standing.samples == 0 {
             return match width * height {
-                // A cell's texel is the third of four each way.
+                // In a cell of 4 x 4 pixels, the pixel that is traced first is the third one on both axes.
                 pixels if pixels / 4 > left && width.min(height) > 2 => Batch::interleaved(4),
                 pixels if pixels > left => Batch::interleaved(2),
                 _ => Batch::interleaved(1),
@@ -107,7 +107,7 @@ impl Renderer {
         }
         let longest = self.max_batch.min(self.largest_batch);
         let max_batch = if reach(estimator.jitter) > 0 {
-            // A sample that strays must be found again by its index, so it travels alone.
+            // A sample that lands in a neighbouring pixel is found by its index, so there is one sample in a batch.
             1
         } else if estimator.is_adaptive() {
             longest.min(schedule::SELECT_EVERY)
@@ -117,14 +117,14 @@ impl Renderer {
         Batch::whole(self.standing.samples, self.settings.samples, max_batch)
     }
 
-    /// How many pixels are still traced, at most.
+    /// The largest possible number of pixels that are still traced.
     fn most_active(&self, estimator: &Estimator) -> u64 {
         let [width, height] = estimator.size.map(u64::from);
         self.progress().active_pixels.unwrap_or(width * height)
     }
 }
 
-/// What accumulating a pixel costs, in samples traced: about an eighth for each texel it looks at.
+/// The cost of accumulating a pixel: about an eighth of that of tracing a sample, for each texel that is read.
 fn accumulate_cost(jitter: f32) -> f64 {
     let across = f64::from(2 * reach(jitter) + 1);
     across * across / 8.0

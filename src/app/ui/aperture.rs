@@ -1,4 +1,4 @@
-//! The part of the panel that shapes the opening.
+//! The part of the panel for the shape of the aperture.
 
 use super::widgets::{Layout, combo, note_item, tooltip};
 use crate::app::panel::Panel;
@@ -6,7 +6,7 @@ use crate::scene::{Aperture, CameraModel};
 use crate::settings::Part;
 use imgui::Ui;
 
-/// What an opening can be made of.
+/// The shapes to choose from.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Shape {
     Disc,
@@ -39,7 +39,7 @@ fn shape_of(aperture: &Aperture) -> Shape {
 }
 
 impl Panel {
-    /// What the opening is made of, and its rows.
+    /// Draws the list of shapes and the rows of the chosen one.
     pub(super) fn aperture(&mut self, ui: &Ui, layout: &mut Layout) {
         let estimator = &mut self.settings.estimator;
         let (aperture, image, model) = (&mut estimator.aperture, self.image.as_ref(), estimator.model);

@@ -1,4 +1,4 @@
-//! A held picture beside the one that is rendered, and the line between them.
+//! The comparison of a held picture with the current one: the line between them and its labels.
 
 use super::numbers::length;
 use super::widgets::{Layout, note_item};
@@ -7,18 +7,18 @@ use crate::scene::CameraModel;
 use crate::settings::Settings;
 use imgui::{Condition, MouseCursor, StyleVar, Ui, WindowFlags};
 
-/// How far from the line the pointer may be to take it, in points.
+/// The line can be dragged from this distance, in points.
 const REACH: f32 = 6.0;
 const LINE: [f32; 4] = [1.0, 1.0, 1.0, 0.85];
 const SHADE: [f32; 4] = [0.0, 0.0, 0.0, 0.65];
 
-/// What is held from now on, with what was set.
+/// Describes the picture that is held, with its settings.
 pub(super) fn held(settings: &Settings, share: f32) -> Held {
     Held { share, words: words(settings) }
 }
 
 impl Panel {
-    /// Draws the line, and moves it as the hand does.
+    /// Draws the line, and moves it when it is dragged.
     pub(super) fn divider(&mut self, ui: &Ui, layout: &mut Layout) {
         let now = words(&self.settings);
         let Some(held) = &mut self.held else {
@@ -76,7 +76,7 @@ impl Panel {
     }
 }
 
-/// What forms the picture, in a few words.
+/// The lens or the hole in a few words.
 fn words(settings: &Settings) -> String {
     let estimator = &settings.estimator;
     match estimator.model {

@@ -1,4 +1,4 @@
-//! The part of the panel that opens and saves.
+//! The part of the panel for opening and saving files.
 
 use super::Action;
 use super::widgets::{Layout, combo, named, note_item, tooltip};
@@ -16,7 +16,7 @@ impl Panel {
                 ui.text_disabled("none yet");
             }
             for (number, file) in self.recent.iter().enumerate() {
-                // Names may be shown alike.
+                // imgui needs an id, because two files may be shown by the same name.
                 let _id = ui.push_id_usize(number);
                 if ui.selectable(file.to_string_lossy()) {
                     wanted = Some(file.clone());

@@ -1,4 +1,4 @@
-//! The part of the panel that says what forms the picture: lens, pinhole or hole.
+//! The part of the panel for the lens, the ideal pinhole or the hole.
 
 use super::widgets::{Layout, note_item};
 use crate::app::panel::Panel;
@@ -6,7 +6,7 @@ use crate::scene::CameraModel;
 use crate::settings::Part;
 use imgui::Ui;
 
-/// The full stops that have a button.
+/// The f-numbers of the full stops, each of which has a button.
 const STOPS: [(f64, &str); 11] = [
     (1.2, "f/1.2"),
     (1.4, "f/1.4"),
@@ -23,7 +23,7 @@ const STOPS: [(f64, &str); 11] = [
 const STOPS_PER_ROW: usize = 6;
 
 impl Panel {
-    /// What forms the picture, the f-number, and a button for each full stop.
+    /// Draws the list of camera models, the f-number, and a button for each full stop.
     pub(super) fn lens(&mut self, ui: &Ui, layout: &mut Layout) {
         self.rows(ui, Part::Model, layout);
         self.rows(ui, Part::Lens, layout);

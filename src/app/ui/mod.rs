@@ -1,4 +1,4 @@
-//! The panel as it is drawn.
+//! Draws the panel.
 
 mod aperture;
 mod compare;
@@ -21,43 +21,43 @@ use crate::settings::Part;
 use imgui::{Condition, Ui};
 use widgets::{Layout, combo, note_item, section, tooltip};
 
-/// Width of the panel, in points.
+/// The width of the panel, in points.
 const PANEL_WIDTH: f32 = 320.0;
-/// Around the panel, in points.
+/// The space around the panel, in points.
 const MARGIN: f32 = 12.0;
 
-/// What the panel shows of the renderer.
+/// What the panel shows besides the settings.
 pub(super) struct Status<'a> {
     pub(super) progress: Progress,
     pub(super) device: &'a str,
-    /// What lies under the pointer, while it is over the picture.
+    /// What is under the pointer, while the pointer is over the picture.
     pub(super) picked: Option<&'a Picked>,
     /// The optics of the pixel that was clicked last.
     pub(super) diagram: Option<&'a Diagram>,
-    /// What is made ready in another thread meanwhile, if anything.
+    /// What another thread is loading, if anything.
     pub(super) loading: Option<String>,
 }
 
-/// What a button asks for beyond the settings.
+/// What a button or a key does beyond changing a setting.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Action {
     /// Focus on what is in the middle of the picture.
     Autofocus,
-    /// Back to the settings that the scene was opened with.
+    /// Restore the settings that the scene was opened with.
     Reset,
-    /// Put the camera back to where the scene was opened.
+    /// Restore the position of the camera that the scene was opened with.
     ResetCamera,
-    /// Take the last change back.
+    /// Undo the last change.
     Undo,
-    /// Make it again.
+    /// Redo the change that was undone last.
     Redo,
-    /// Hold the picture beside what comes, or let it go.
+    /// Hold the picture for comparison, or release it.
     Compare,
-    /// Let the device rest, or go on.
+    /// Pause rendering, or continue.
     Pause,
     /// Open or close the drawing of the optics.
     Optics,
-    /// Show what mouse and keys do, or no longer.
+    /// Show or hide the list of keys.
     Keys,
     /// Write the picture to the file that is named.
     SavePicture,
@@ -68,7 +68,7 @@ pub(super) enum Action {
 }
 
 impl Panel {
-    /// Draws the panel and changes the settings as told.
+    /// Draws the panel, and changes the settings as the user does.
     pub(super) fn draw(&mut self, ui: &Ui, status: &Status<'_>) -> Option<Action> {
         let mut layout = Vec::new();
         let mut action = None;
@@ -153,7 +153,7 @@ impl Panel {
         action
     }
 
-    /// A picture is held from now on, on the left of what the panel leaves free.
+    /// Notes that the picture is held. The line starts in the middle of the area right of the panel.
     pub(super) fn hold(&mut self) {
         let width = self.settings.estimator.size[0] as f32;
         let left = (PANEL_WIDTH + 2.0 * MARGIN) / width;
@@ -166,7 +166,7 @@ impl Panel {
         let help = "What is rendered: the built-in scenes, and what was opened.";
         combo(ui, "Scene", &shown.to_string_lossy(), help, layout, |layout| {
             for (number, name) in self.scenes.iter().enumerate() {
-                // Names may be shown alike.
+                // imgui needs an id, because two scenes may be shown by the same name.
                 let _id = ui.push_id_usize(number);
                 if ui.selectable_config(name.to_string_lossy()).selected(*name == shown).build() {
                     chosen = Some(name.clone());
@@ -184,7 +184,7 @@ impl Panel {
         }
     }
 
-    /// The rows of a part that change settings.
+    /// Draws the rows of a part of the panel.
     fn rows(&mut self, ui: &Ui, part: Part, layout: &mut Layout) {
         rows::rows(ui, part, &mut self.settings, &self.initial, layout);
     }

@@ -1,4 +1,4 @@
-//! The part of the panel that has the numbers: what is sharp, and what lies under the pointer.
+//! The part of the panel that shows numbers: what is sharp, and what is under the pointer.
 
 use crate::app::panel::Panel;
 use crate::renderer::Picked;
@@ -39,7 +39,7 @@ impl Panel {
     }
 }
 
-/// Four digits, and a sign for what has no end.
+/// A length with four digits, or "infinity".
 pub(super) fn length(value: f64) -> String {
     if value.is_infinite() {
         return "infinity".into();

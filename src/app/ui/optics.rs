@@ -18,11 +18,11 @@ const FAINT_LIGHT: Color = [0.45, 0.85, 0.70, 0.30];
 const BLUR: Color = [1.0, 0.36, 0.42, 1.0];
 const CENTRE: Color = [1.0, 1.0, 1.0, 0.95];
 
-/// Between the views, in points.
+/// The space between the views, in points.
 const GAP: f32 = 6.0;
-/// Sides of the lens's rim, as drawn.
+/// The rim of the lens is drawn as a polygon with this many sides.
 const RIM_SIDES: u32 = 96;
-/// Rays that can be drawn.
+/// The smallest and the largest number of rays.
 const RAYS: [u32; 2] = [3, 65];
 
 impl Optics {
@@ -39,12 +39,12 @@ impl Optics {
             .position([left, height - size[1] - MARGIN], Condition::FirstUseEver)
             .size(size, Condition::FirstUseEver)
             .opened(&mut open)
-            // It has its own: a software device takes its time over what is painted twice.
+            // `background` paints only what the views leave free: painting the same area twice is slow on a software device.
             .flags(WindowFlags::NO_BACKGROUND)
             .build(|| {
                 let ([left, top], [width, height]) = (ui.cursor_screen_pos(), ui.content_region_avail());
                 let top_of_papers = top + ui.frame_height_with_spacing();
-                // Without a drawing nothing covers it.
+                // Without a drawing, nothing else paints the area of the views.
                 let papers = [[left, top_of_papers], [left + width, top + height]];
                 background(ui, if diagram.is_some() { papers } else { [papers[0]; 2] });
                 self.controls(ui, layout);
@@ -106,7 +106,7 @@ impl Optics {
         ui.dummy([width, (height - 1.0).max(0.0)]);
     }
 
-    /// Lens, view plane and focal plane, the centre ray, and the fan of primary rays.
+    /// Draws the view in front of the lens: lens, view plane, focal plane, the centre ray and the fan of primary rays.
     fn scene_side(&self, mut paper: Paper<'_>, side: View, diagram: &Diagram) {
         let (fan, axis) = match side {
             View::Side => (&diagram.fan_up, 1),
@@ -157,7 +157,7 @@ impl Optics {
     }
 }
 
-/// Paints the window but for its title and for this rectangle, which the papers cover.
+/// Paints the background of the window, except for its title and this rectangle, which the views cover.
 fn background(ui: &Ui, [[left, top], [right, bottom]]: [[f32; 2]; 2]) {
     let ([x, y], [width, height]) = (ui.window_pos(), ui.window_size());
     let (y, end_x, end_y) = (y + ui.frame_height(), x + width, y + height);
@@ -175,7 +175,7 @@ fn background(ui: &Ui, [[left, top], [right, bottom]]: [[f32; 2]; 2]) {
     });
 }
 
-/// The lens and the view plane's middle from behind: the samples, and where their rays go.
+/// Draws the view from behind: the lens and the middle of the view plane, with the samples and their rays.
 fn front(mut paper: Paper<'_>, diagram: &Diagram) {
     let at_view_plane = |ray: &Line| {
         let [from, to] = *ray;
@@ -217,7 +217,8 @@ fn front(mut paper: Paper<'_>, diagram: &Diagram) {
     });
 }
 
-/// Lens and film, the light of what is seen, and its circle of confusion; from the right.
+/// Draws the view behind the lens, from the right: lens and film, the light of the visible point, and its circle of
+/// confusion.
 fn film_side(mut paper: Paper<'_>, diagram: &Diagram) {
     let image = &diagram.image;
     let v = image.film_distance;
@@ -238,7 +239,7 @@ fn film_side(mut paper: Paper<'_>, diagram: &Diagram) {
         paper.dashed([DVec3::ZERO, image.p], CENTRE);
         paper.upright(0.0, [-opening, opening], GLASS, 4.0);
         paper.dot(image.p, FOCUS, "p'");
-        // The chief ray's end is the middle of the circle, which has the opening's shape.
+        // The chief ray ends in the middle of the circle of confusion, which has the shape of the aperture.
         let half = 0.5 * image.blur * (opening / across.max(opening).max(f64::MIN_POSITIVE));
         paper.upright(-v, [image.p.y - half, image.p.y + half], BLUR, 4.0);
         paper.title("Behind the lens: film and circle of confusion");
@@ -247,7 +248,7 @@ fn film_side(mut paper: Paper<'_>, diagram: &Diagram) {
     });
 }
 
-/// What the drawing says in words.
+/// The line of text below the drawing.
 fn legend(diagram: &Diagram) -> String {
     let blur = format!("circle of confusion {:.2} px", diagram.image.blur_pixels);
     match (&diagram.focus, &diagram.hit) {
@@ -259,7 +260,7 @@ fn legend(diagram: &Diagram) -> String {
     }
 }
 
-/// The least and the most of them, with some room.
+/// The range of these values, with some space on both sides.
 fn around(values: &[f64]) -> [f64; 2] {
     let low = values.iter().copied().fold(f64::INFINITY, f64::min);
     let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);

@@ -1,4 +1,4 @@
-//! The legend of what is shown instead of the picture.
+//! The legend of an overlay.
 
 use super::MARGIN;
 use crate::settings::Settings;
@@ -6,7 +6,7 @@ use imgui::{Condition, Ui, WindowFlags};
 
 const WIDTH: f32 = 260.0;
 
-/// At the lower right.
+/// Draws the legend at the lower right.
 pub(super) fn legend(ui: &Ui, settings: &Settings) {
     let Some(overlay) = settings.view.overlay else {
         return;
@@ -38,7 +38,7 @@ pub(super) fn legend(ui: &Ui, settings: &Settings) {
         });
 }
 
-/// A bar that goes evenly from colour to colour, in linear light as the picture does.
+/// Draws a bar that blends from colour to colour in linear light, as the overlay does.
 fn bar(ui: &Ui, colors: &[[f32; 3]]) {
     let steps = 64;
     let [x, y] = ui.cursor_screen_pos();

@@ -1,4 +1,4 @@
-//! What the optics are drawn on: a rectangle of the window, in which the scene lies to scale.
+//! A drawing surface for the optics: a rectangle of the window that shows the scene to scale.
 
 use crate::app::diagram::Line;
 use glam::DVec3;
@@ -11,15 +11,15 @@ pub(super) const FRAME: Color = [0.30, 0.33, 0.38, 1.0];
 pub(super) const FAINT: Color = [0.55, 0.58, 0.64, 1.0];
 const TEXT: Color = [0.86, 0.88, 0.92, 1.0];
 
-/// Lengths of the dashes of the centre ray, and of the gaps, in points.
+/// The length of a dash of the centre ray and of a gap, in points.
 const DASH: f32 = 5.0;
-/// Kept free above and below for words, in points.
+/// The space above the drawing, and below it, for text, in points.
 const HEAD: f32 = 24.0;
 const FOOT: f32 = 18.0;
-/// About the width of a letter.
+/// About the width of a letter, in points.
 pub(super) const LETTER: f32 = 8.0;
 
-/// Which way one looks at it.
+/// The direction of view.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum View {
     /// From the right: depth to the right, up is up.
@@ -40,15 +40,15 @@ impl View {
     }
 }
 
-/// A view: a rectangle of the window, and how the scene lies in it.
+/// A view: a rectangle of the window, and the mapping of the scene to it.
 pub(super) struct Paper<'a> {
     pub(super) list: &'a DrawListMut<'a>,
     pub(super) min: [f32; 2],
     pub(super) max: [f32; 2],
     side: View,
-    /// Of the scene, in the middle of the rectangle.
+    /// The point of the scene that is shown in the middle of the rectangle.
     middle: [f64; 2],
-    /// Points a scene unit.
+    /// Points per scene unit.
     scale: [f64; 2],
 }
 
@@ -60,7 +60,8 @@ impl<'a> Paper<'a> {
         Self { list, min, max, side: View::Side, middle: [0.0; 2], scale: [1.0; 2] }
     }
 
-    /// Puts these bounds into the rectangle, as large as they go, and stretched as far as there is room.
+    /// Shows these bounds in the rectangle, as large as possible. Stretches the height by up to `stretch`, as far as there
+    /// is room.
     pub(super) fn fit(&mut self, bounds: [[f64; 2]; 2], stretch: f64, side: View) {
         let [width, height] = [0, 1].map(|axis| self.max[axis] - self.min[axis]);
         let room = [width, (height - HEAD - FOOT).max(1.0)].map(f64::from);
@@ -78,7 +79,7 @@ impl<'a> Paper<'a> {
         [(across + (flat[0] - self.middle[0]) * self.scale[0]) as f32, self.height(flat[1])]
     }
 
-    /// Where something at this distance above the axis is drawn.
+    /// The vertical position at which something at this distance above the axis is drawn.
     fn height(&self, aside: f64) -> f32 {
         let middle = 0.5 * f64::from(self.min[1] + HEAD + self.max[1] - FOOT);
         (middle - (aside - self.middle[1]) * self.scale[1]) as f32
@@ -92,7 +93,7 @@ impl<'a> Paper<'a> {
         let (from, to) = (self.place(from), self.place(to));
         let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
         let length = dx.hypot(dy);
-        // What leaves the paper is not seen, and could be dashes without end.
+        // A line that leaves the rectangle could be extremely long, and its dashes would take forever.
         let visible = length.min((self.max[0] - self.min[0]).hypot(self.max[1] - self.min[1]) * 1.5);
         let at = |along: f32| [from[0] + dx / length * along, from[1] + dy / length * along];
         let mut along = 0.0;
@@ -103,13 +104,13 @@ impl<'a> Paper<'a> {
         }
     }
 
-    /// A line across the axis at a depth, between two distances from it.
+    /// Draws a line perpendicular to the axis at a depth, between two distances from the axis.
     pub(super) fn upright(&self, depth: f64, [low, high]: [f64; 2], color: Color, thickness: f32) {
         let [x, _] = self.place(DVec3::new(0.0, 0.0, depth));
         self.list.add_line([x, self.height(low)], [x, self.height(high)], color).thickness(thickness).build();
     }
 
-    /// A line across the axis at a depth, all over the paper.
+    /// Draws a line perpendicular to the axis at a depth, over the whole height.
     pub(super) fn tall(&self, depth: f64, color: Color) {
         let [x, _] = self.place(DVec3::new(0.0, 0.0, depth));
         self.list.add_line([x, self.min[1]], [x, self.max[1]], color).thickness(1.5).build();
@@ -126,14 +127,14 @@ impl<'a> Paper<'a> {
         self.list.add_text([self.min[0] + 6.0, self.min[1] + 3.0], TEXT, text);
     }
 
-    /// Names what stands at a depth, at the paper's foot, right or left of it.
+    /// Writes a label at the bottom, to the right or left of this depth.
     pub(super) fn foot(&self, depth: f64, text: &str, color: Color, left: bool) {
         let [x, _] = self.place(DVec3::new(0.0, 0.0, depth));
         let aside = if left { -5.0 - LETTER * text.len() as f32 } else { 5.0 };
         self.list.add_text([x + aside, self.max[1] - 20.0], color, text);
     }
 
-    /// A round length, at the upper right.
+    /// Draws a scale bar of a round length at the upper right.
     pub(super) fn scale_bar(&self) {
         let most = 0.25 * f64::from(self.max[0] - self.min[0]) / self.scale[0];
         let power = 10.0_f64.powf(most.log10().floor());

@@ -1,4 +1,4 @@
-//! The rows of the panel that change settings, as the list of settings has them.
+//! The rows of the panel, made from the list of settings.
 
 use super::widgets::{Layout, combo, named, note_item, tooltip};
 use crate::scene::PLACES;
@@ -6,7 +6,7 @@ use crate::settings::{Access, Choice, Field, Part, Row, Setting, Settings, Slide
 use glam::DVec3;
 use imgui::{Drag, SliderFlags, Ui};
 
-/// The rows of a part of the panel. `initial` is what the scene was opened with.
+/// Draws the rows of a part of the panel. `initial` has the settings that the scene was opened with.
 pub(super) fn rows(ui: &Ui, part: Part, settings: &mut Settings, initial: &Settings, layout: &mut Layout) {
     for setting in list::all() {
         if let Some(row) = &setting.row
@@ -62,8 +62,8 @@ fn draw(
     }
 }
 
-/// A slider. What does not change is left to the bit.
-#[allow(clippy::too_many_arguments, reason = "the last two are the type's")]
+/// Draws a slider. A value that the user does not change keeps every bit.
+#[allow(clippy::too_many_arguments, reason = "the last two arguments depend on the type")]
 fn slide<T: imgui::internal::DataTypeKind>(
     ui: &Ui,
     id: String,
@@ -113,7 +113,7 @@ fn choose(
     });
 }
 
-/// Three numbers that are dragged, unless the camera would see nothing then.
+/// Draws three numbers that can be dragged. Values with which the camera would have no view are refused.
 fn drag(ui: &Ui, id: String, field: &Field<DVec3>, settings: &mut Settings) {
     let before = settings.estimator.camera;
     let mut parts = (field.get)(settings).to_array();

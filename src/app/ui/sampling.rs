@@ -1,4 +1,4 @@
-//! The parts of the panel that say how far the picture is, and on which device.
+//! The parts of the panel for the progress of the picture and for the device.
 
 use super::Status;
 use crate::app::panel::Panel;

@@ -1,10 +1,10 @@
-//! Controls of the panel.
+//! The controls of the panel.
 
 pub(super) use crate::app::panel::Layout;
 
 use imgui::{TreeNodeFlags, Ui};
 
-/// A control with its name above it, as wide as the panel.
+/// Draws a control as wide as the panel, with its name above it.
 pub(super) fn named(
     ui: &Ui,
     name: &'static str,
@@ -28,7 +28,7 @@ pub(super) fn tooltip(ui: &Ui, help: &str) {
     }
 }
 
-/// Where the last item is, in physical pixels: left, top, width, height.
+/// Notes where the last item was drawn: left, top, width and height in physical pixels.
 pub(super) fn note_item(ui: &Ui, name: &'static str, layout: &mut Layout) {
     let scale = ui.io().display_framebuffer_scale;
     let (min, max) = (ui.item_rect_min(), ui.item_rect_max());
@@ -39,7 +39,7 @@ pub(super) fn note_item(ui: &Ui, name: &'static str, layout: &mut Layout) {
     ));
 }
 
-/// A part of the panel that folds away.
+/// Draws a part of the panel that can be collapsed.
 pub(super) fn section(
     ui: &Ui,
     name: &'static str,
@@ -55,7 +55,7 @@ pub(super) fn section(
     }
 }
 
-/// A list of choices that folds out, as wide as the panel.
+/// Draws a drop-down list as wide as the panel.
 pub(super) fn combo(
     ui: &Ui,
     name: &'static str,
@@ -67,7 +67,7 @@ pub(super) fn combo(
     ui.set_next_item_width(-1.0);
     match ui.begin_combo(format!("##{name}"), shown) {
         Some(_open) => choices(layout),
-        // Once it is open, the last item is not the list but something in it.
+        // While the list is open, the last item is an entry of it and not the list.
         None => {
             note_item(ui, name, layout);
             tooltip(ui, help);

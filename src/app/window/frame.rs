@@ -11,12 +11,12 @@ use crate::vulkan::AcquiredImage;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Tracing time a frame while a control is held, so that it follows the hand: an event waits for the frame
-/// under way and then for its own.
+/// Tracing time per frame while a control is held. It is short so that the picture follows the pointer: an event waits
+/// for the frame that is being drawn and then for the frame that shows it.
 const DRAGGING_BUDGET: Duration = Duration::from_millis(4);
-/// Otherwise: most of a frame, and the window still answers.
+/// Tracing time per frame otherwise: most of a frame, but short enough that the window stays responsive.
 const RESTING_BUDGET: Duration = Duration::from_millis(30);
-/// A device that is lost more often than this is not opened again.
+/// The viewer ends if the device is lost more often than this.
 const MOST_LOSSES: u32 = 3;
 
 impl OpenWindow {
@@ -36,7 +36,8 @@ impl OpenWindow {
         Ok(())
     }
 
-    /// Takes in what the device has done, and gives the image to draw to and its size. None where there is none now.
+    /// Collects the results of earlier frames, and returns the image to draw to and its size. `None` if there is no image
+    /// to draw to at the moment.
     fn begin_frame(&mut self) -> Result<Option<(AcquiredImage, [u32; 2])>> {
         let size = self.window.inner_size();
         let Some(size) = self.graphics.fit([size.width, size.height], &mut self.imgui)? else {
@@ -55,14 +56,14 @@ impl OpenWindow {
         let io = self.imgui.io_mut();
         io.update_delta_time(self.last_frame.elapsed());
         self.last_frame = Instant::now();
-        // A pointer that the system will not move is no reason to stop.
+        // The system may refuse to move the pointer; the viewer works without that.
         if let Err(error) = self.platform.prepare_frame(io, &self.window) {
             log::warn!("pointer: {error}");
         }
         Ok(Some((image, size)))
     }
 
-    /// Draws the panel, and takes in what the hand did.
+    /// Draws the panel and handles the input of the mouse and the keys.
     fn interact(&mut self, size: [u32; 2]) -> Option<Action> {
         let ui = self.imgui.new_frame();
         ui.dockspace_over_main_viewport();
@@ -103,7 +104,7 @@ impl OpenWindow {
         action
     }
 
-    /// Does what was asked for, and has the renderer follow the settings as soon as it can.
+    /// Performs the action, and passes the settings to the renderer once what they need is ready.
     fn apply(&mut self, action: Option<Action>, size: [u32; 2]) -> Result<()> {
         if self.panel.held.is_some() && !self.graphics.holds() {
             self.panel.held = None;
@@ -130,16 +131,16 @@ impl OpenWindow {
                 }
                 return Ok(());
             }
-            // It is being made ready.
+            // Another thread is preparing what the settings need.
             Ok(false) => self.panel.accepted.settings.estimator.size = size,
             Err(error @ Error::DeviceLost { .. }) => return Err(error),
-            // A scene that does not fit, say. The renderer still has what it had.
+            // For example, a scene that is too large for the device. The renderer keeps what it had.
             Err(error) => self.panel.refuse(&error),
         }
         self.graphics.go_on(self.panel.shown())
     }
 
-    /// Shows what the other thread has made ready. True where the renderer has it.
+    /// Shows what the other thread has prepared. Returns whether the renderer uses it now.
     fn take_ready(&mut self, size: [u32; 2]) -> Result<bool> {
         let prepared = match self.graphics.loader.next() {
             None => return Ok(false),
@@ -154,12 +155,12 @@ impl OpenWindow {
             }
             Some(Ready::Opened { opened: Err(error @ Error::DeviceLost { .. }), .. }) => return Err(error),
             Some(Ready::Opened { opened: Err(error), .. }) => {
-                // What is set stays.
+                // The settings stay as they are.
                 self.panel.say(error.to_string());
                 return Ok(false);
             }
         };
-        // Something may have changed meanwhile.
+        // The settings may have changed while the other thread worked.
         let fits = prepared.fits(&self.panel.settings, true);
         if fits {
             self.graphics.set_prepared(&self.panel.settings, &prepared)?;
@@ -167,7 +168,7 @@ impl OpenWindow {
         Ok(fits)
     }
 
-    /// Goes on with the picture, and shows it with the panel.
+    /// Continues the picture, and shows it with the panel on top.
     fn draw(&mut self, image: &AcquiredImage, size: [u32; 2]) -> Result<()> {
         let finished_before = self.graphics.finished();
         let budget = if self.dragging { DRAGGING_BUDGET } else { RESTING_BUDGET };
@@ -181,20 +182,20 @@ impl OpenWindow {
             self.frames_to_draw = self.frames_to_draw.max(1);
         }
         if !finished_before && self.graphics.finished() {
-            // What was just recorded is on the screen; the panel's figures come a frame later.
+            // The picture is on the screen already, but the figures in the panel are one frame late.
             self.frames_to_draw = self.frames_to_draw.max(FRAMES_AFTER_EVENT);
         }
         Ok(())
     }
 
-    /// Opens the device again, after it was lost, and goes on with what was shown.
+    /// Opens the device again after it was lost, and continues with the settings that were shown.
     pub(super) fn reopen(&mut self, error: Error) -> Result<()> {
         self.losses += 1;
         if self.losses > MOST_LOSSES {
             return Err(error);
         }
         log::warn!("{error}");
-        self.graphics = self.graphics.again(self.panel.shown())?;
+        self.graphics = self.graphics.reopen(self.panel.shown())?;
         self.focus.forget();
         self.panel.held = None;
         self.panel.say(format!("{error}. It is open again."));
@@ -204,7 +205,7 @@ impl OpenWindow {
 
     fn act(&mut self, action: Action) -> Result<()> {
         if matches!(action, Action::Undo | Action::Redo | Action::Reset) {
-            // A change that is still under way ends here.
+            // A change that is still going on becomes an entry of its own in the history.
             self.focus.stop();
             self.history.record(&self.panel.state());
         }
@@ -220,7 +221,7 @@ impl OpenWindow {
             Action::Pause => self.panel.paused ^= true,
             Action::Optics => self.panel.optics.open ^= true,
             Action::Keys => self.panel.keys ^= true,
-            // Done where imgui, which has the clipboard, is at hand.
+            // `interact` has done it already, because imgui owns the clipboard.
             Action::CopyCommand => {}
             Action::SaveScene => self.panel.save_scene(),
             Action::SavePicture => {
@@ -234,7 +235,7 @@ impl OpenWindow {
         Ok(())
     }
 
-    /// Holds the picture on the left, or lets it go.
+    /// Holds the picture on the left for comparison, or releases it.
     fn compare(&mut self) -> Result<()> {
         if self.panel.held.is_some() {
             self.panel.held = None;

@@ -1,4 +1,4 @@
-//! The window and its events.
+//! The window: how it opens, and what its events do.
 
 mod frame;
 
@@ -26,15 +26,16 @@ use winit::raw_window_handle::HasDisplayHandle;
 use winit::window::{Window, WindowId};
 
 const DEFAULT_SIZE: [u32; 2] = [1280, 720];
-/// imgui takes a frame to notice an event and one more to draw what it did.
+/// imgui needs one frame to notice an event and another to draw the effect.
 const FRAMES_AFTER_EVENT: u32 = 3;
-/// It takes presses and releases that come at once a frame each: so many are waited for at most.
+/// imgui handles one press or release per frame, even when several arrive at once. This is the most frames that are
+/// drawn to catch up.
 const MOST_FRAMES_TO_DRAW: u32 = 30;
-/// A thread of the driver that presents frames reads from the window's connection too, and may take in an event on
-/// the way, which winit then sleeps on until the next one comes (seen with Mesa 25). So while a frame may still be
-/// on its way to the screen, winit looks again this often,
+/// The driver's thread that presents frames also reads from the window's connection. It can queue an event that winit
+/// does not notice until the next one arrives (seen with Mesa 25). So winit checks for events this often while a frame
+/// may still be on its way to the screen.
 const LOOK_AGAIN: Duration = Duration::from_millis(20);
-/// and for this long.
+/// How long after it began a frame may still be on its way to the screen.
 const MAY_BE_PRESENTING: Duration = Duration::from_secs(5);
 
 /// The application as winit drives it.
@@ -59,15 +60,15 @@ struct OpenWindow {
     has_clipboard: bool,
     window: Arc<Window>,
     last_frame: Instant,
-    /// When the first event came that no frame has shown yet.
+    /// When the oldest event arrived whose effect no frame has shown yet.
     unshown_since: Option<Instant>,
     frames_to_draw: u32,
-    /// Whether it waits for an event.
+    /// Whether the viewer has nothing to do until the next event.
     idle: bool,
-    /// Whether the last frame had a control held.
+    /// Whether a control was held, or the camera or the focal plane was moving, in the last frame.
     dragging: bool,
     telemetry: Telemetry,
-    /// How often the device was lost.
+    /// The number of times that the device was lost.
     losses: u32,
     occluded: bool,
 }
@@ -77,7 +78,7 @@ impl Viewer {
         Self { options, waker, open: None, instance: None, error: None }
     }
 
-    /// Closes the window, if it is still open, and says what ended the viewer.
+    /// Closes the window, if it is still open, and returns the error that ended the viewer, if there was one.
     pub(super) fn finish(self) -> Result<()> {
         drop(self.open);
         self.error.map_or(Ok(()), Err)?;
@@ -146,7 +147,7 @@ impl ApplicationHandler for Viewer {
         }
     }
 
-    /// Something is ready that another thread has made.
+    /// Another thread has something ready.
     fn user_event(&mut self, _event_loop: &ActiveEventLoop, (): ()) {
         if let Some(open) = &mut self.open {
             open.frames_to_draw = open.frames_to_draw.max(FRAMES_AFTER_EVENT);
@@ -176,7 +177,7 @@ impl ApplicationHandler for Viewer {
     }
 
     fn exiting(&mut self, _event_loop: &ActiveEventLoop) {
-        // What could not be shown is not to be met again.
+        // Settings that ended the viewer must not end it again at the next start.
         if let Some(open) = self.open.as_ref().filter(|_| self.error.is_none()) {
             open.panel.memory().save();
         }
@@ -184,11 +185,11 @@ impl ApplicationHandler for Viewer {
     }
 }
 
-/// Says in the log what came from the hand, and gives whether a button or a key changed.
+/// Writes input events to the log. Returns whether a button or a key changed.
 fn report_input(event: &WindowEvent) -> bool {
     let state = match event {
         WindowEvent::MouseInput { state, .. } => state,
-        // What is held when the window gets the focus comes twice, once made up.
+        // When the window gets the focus, winit reports held keys again in made-up events.
         WindowEvent::KeyboardInput { event, is_synthetic: false, .. } if !event.repeat => &event.state,
         WindowEvent::CursorMoved { position, .. } => {
             log::trace!("{} {} {}", telemetry::POINTER_AT, position.x, position.y);
@@ -267,7 +268,7 @@ impl OpenWindow {
         self.occluded || size.width == 0 || size.height == 0 || self.window.is_minimized() == Some(true)
     }
 
-    /// Whether the picture is to stay as it is, and there is one.
+    /// Whether rendering is paused and there is a picture to show.
     fn rests(&self) -> bool {
         self.panel.paused && self.graphics.progress().samples > 0
     }
