@@ -1,4 +1,4 @@
-//! The command line, as values. Nothing is rendered here.
+//! Parses the command line into values. Nothing is rendered here.
 
 mod settings;
 
@@ -10,7 +10,7 @@ pub use settings::SettingsArgs;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-/// The lenses of a sweep, unless others are named: from clearly blurred to sharp.
+/// The default f-numbers of a sweep, from clearly blurred to sharp.
 const SWEPT_F_NUMBERS: [f64; 4] = [2.8, 5.6, 11.0, 32.0];
 
 /// The command line.
@@ -75,7 +75,7 @@ pub struct RenderArgs {
     /// What to render.
     #[command(flatten)]
     pub settings: SettingsArgs,
-    /// Focus on what the picture shows at this pixel, counted from its upper left corner, or in its middle
+    /// Focus on what the picture shows at this pixel, counted from the upper left corner, or in the middle
     #[arg(
         long,
         value_name = "X,Y",
@@ -179,7 +179,7 @@ pub struct BenchArgs {
     pub device: DeviceArgs,
 }
 
-/// Where to render.
+/// The device to render on.
 #[derive(Debug, Args, Default)]
 pub struct DeviceArgs {
     /// Vulkan device, by its index or part of its name (see thinlens devices) [default: the best]
@@ -190,10 +190,10 @@ pub struct DeviceArgs {
     pub validation: bool,
 }
 
-/// The command line that the program was started with. Wrong use and help end the program here.
+/// The arguments that the program was started with. Ends the program if they are wrong or ask for help.
 pub fn parse() -> Cli {
     Cli::try_parse().unwrap_or_else(|error| {
-        // A file's name may look like an option to clap.
+        // clap takes a file name that begins with a dash for an option.
         let is_file = |word: &OsString| {
             let name = Path::new(word).extension().and_then(|extension| extension.to_str());
             let dash = word.as_encoded_bytes().starts_with(b"-");
@@ -210,14 +210,14 @@ pub fn parse() -> Cli {
 }
 
 impl DeviceArgs {
-    /// As a plain value.
+    /// The choice as a plain value.
     pub fn choice(&self) -> DeviceChoice {
         DeviceChoice { device: self.device.clone(), validation: self.validation }
     }
 }
 
 impl SweepArgs {
-    /// What differs from picture to picture.
+    /// The value that changes from picture to picture.
     pub fn sweep(&self) -> Sweep {
         if !self.lens_diameters.is_empty() {
             Sweep::LensDiameters(self.lens_diameters.clone())

@@ -1,4 +1,4 @@
-//! What to render, on the command line: a scene, and what to change of it.
+//! The arguments that say what to render: a scene, and changes to its settings.
 
 use crate::error::Result;
 use crate::scene::{self, BUILTINS, SceneRef};
@@ -7,14 +7,14 @@ use clap::{Arg, Args};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-/// Samples per pixel that the viewer goes for, unless another number is asked for.
+/// The default number of samples per pixel in the viewer.
 const DEFAULT_VIEW_SAMPLES: u32 = 256;
 
-/// Pictures that a device is verified with: the oracle has to render them too.
+/// The size and the samples of pictures that verify a device. They are small, because the oracle is slow.
 const PROOF_SIZE: [u32; 2] = [128, 96];
 const PROOF_SAMPLES: u32 = 16;
 
-/// What to render: a scene, and what to change of it.
+/// What to render: a scene, and changes to its settings.
 #[derive(Debug, Args, Default)]
 pub struct SettingsArgs {
     /// A built-in scene (see thinlens scenes), .toml or .obj file [default: version-4]
@@ -24,7 +24,7 @@ pub struct SettingsArgs {
 }
 
 impl SettingsArgs {
-    /// The settings of a picture for a file.
+    /// The settings for a picture in a file.
     ///
     /// # Errors
     /// Those of loading a scene, or [`crate::error::Error::OutOfRange`].
@@ -32,10 +32,10 @@ impl SettingsArgs {
         self.resolve(DEFAULT_SAMPLES)
     }
 
-    /// The settings of a picture for a file that starts from another one's arguments.
+    /// The settings for a picture in a file, which are changes to the arguments of another picture.
     ///
     /// # Errors
-    /// Those of an argument that does not parse, or of loading the scene.
+    /// The errors of parsing an argument or of loading the scene.
     pub fn of_picture(&self, arguments: &[OsString]) -> Result<Settings> {
         let mut settings = Settings::of_arguments(arguments)?;
         self.changes.apply(&mut settings)?;
@@ -55,8 +55,7 @@ impl SettingsArgs {
         self.resolve(DEFAULT_VIEW_SAMPLES)
     }
 
-    /// The settings of small pictures to verify a device with: of the scene that was named, or of
-    /// each that is built in.
+    /// The settings of small pictures to verify a device with: of the scene that was named, or of each built-in scene.
     ///
     /// # Errors
     /// Those of loading a scene, or [`crate::error::Error::OutOfRange`].
@@ -74,12 +73,12 @@ impl SettingsArgs {
         names.into_iter().map(proof).collect()
     }
 
-    /// The scene, as it was named.
+    /// The name of the scene as it was given.
     pub fn scene(&self) -> &Path {
         self.scene.as_deref().unwrap_or(Path::new(BUILTINS[0].name))
     }
 
-    /// The picture's size, if one was named.
+    /// The size of the picture, if it was given.
     pub fn size(&self) -> Option<[u32; 2]> {
         match self.changes.get("size") {
             Some(Value::Size(size)) => Some(*size),
@@ -95,12 +94,12 @@ impl SettingsArgs {
     }
 }
 
-/// For a command that saves scenes: how they are sampled is not part of them.
+/// Hides the options of sampling from a command that saves scenes, because they are not part of a scene.
 pub(super) fn for_saving(option: Arg) -> Arg {
     hide(option, |setting| setting.is_of_sampling())
 }
 
-/// For a command that verifies devices: the oracle is held against single samples, before they are shown.
+/// Hides options from the command that verifies devices: it compares single samples before they are shown.
 pub(super) fn for_verifying(option: Arg) -> Arg {
     let option = match option.get_id().as_str() {
         "scene" => option
@@ -112,7 +111,7 @@ pub(super) fn for_verifying(option: Arg) -> Arg {
     hide(option, |setting| setting.role == Role::View || setting.flag == "noise-threshold")
 }
 
-/// Leaves the option of such a setting out of a command's help.
+/// Hides the options of these settings from the help of a command.
 fn hide(option: Arg, such: impl Fn(&Setting) -> bool) -> Arg {
     let setting = list::all().find(|setting| option.get_id() == setting.flag);
     let hidden = setting.is_some_and(such);

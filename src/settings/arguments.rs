@@ -1,5 +1,5 @@
-//! Settings as the arguments of the command line that renders them: for people to copy, and for pictures to
-//! carry.
+//! Converts settings to the arguments of a command line that renders them, and back. Users copy them, and saved pictures
+//! store them.
 
 use super::setting::NONE;
 use super::{Changes, Settings, Value, list};
@@ -10,13 +10,13 @@ use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 impl Settings {
-    /// The arguments after `thinlens render`, without `-o`, that render this picture again: the scene as it was named, size,
-    /// samples, and every setting that is not as the scene has it.
+    /// The arguments after `thinlens render`, without `-o`, that render this picture again: the name of the scene, the size,
+    /// the samples, and every setting that differs from the scene's.
     pub fn arguments(&self) -> Vec<OsString> {
         self.arguments_with(Path::to_path_buf)
     }
 
-    /// The arguments as [`Self::arguments`] gives them, but with absolute paths, so that they hold in every folder.
+    /// The arguments that [`Self::arguments`] returns, but with absolute paths, so that they work in every folder.
     pub fn arguments_from_anywhere(&self) -> Vec<OsString> {
         self.arguments_with(|file| std::path::absolute(file).unwrap_or_else(|_| file.to_path_buf()))
     }
@@ -27,7 +27,7 @@ impl Settings {
         let mut arguments = vec![scene_argument(&scene.source, &named)];
         for setting in list::own() {
             let value = setting.get(self);
-            // The size of a picture and its samples are not the scene's, wherever it is rendered again.
+            // Size and samples are always written, because their defaults depend on where the picture is rendered.
             let always = ["size", "samples"].contains(&setting.flag);
             if always || value != setting.get(&plain) {
                 let mut argument = OsString::from(format!("--{}=", setting.flag));
@@ -38,10 +38,10 @@ impl Settings {
         arguments
     }
 
-    /// The settings of such arguments.
+    /// The settings that such arguments describe.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for what are none, or of the scene.
+    /// [`Error::OutOfRange`] if an argument does not parse, or the errors of loading the scene.
     pub fn of_arguments(arguments: &[OsString]) -> Result<Self> {
         let command = Changes::augment_args(clap::Command::new("picture").no_binary_name(true));
         let command = command.arg(Arg::new("scene").value_parser(clap::value_parser!(PathBuf)));
@@ -57,14 +57,14 @@ impl Settings {
         Ok(settings)
     }
 
-    /// The same as a line for a shell.
+    /// The command that renders this picture again, as a line for a shell.
     pub fn command_line(&self, output: &str) -> String {
         let words: Vec<String> = self.arguments().iter().map(|word| quoted(word)).collect();
         format!("thinlens render {} -o {output}", words.join(" "))
     }
 }
 
-/// A value as an option takes it. Numbers have as many digits as they need to come back the same.
+/// A value as the text of an option. A number has as many digits as it needs to be read back exactly.
 fn text(value: &Value, named: impl Fn(&Path) -> PathBuf) -> OsString {
     match value {
         Value::Single(number) => number.to_string().into(),
@@ -78,7 +78,7 @@ fn text(value: &Value, named: impl Fn(&Path) -> PathBuf) -> OsString {
     }
 }
 
-/// A scene as an argument. A name that begins with a dash would be taken for an option.
+/// A scene as an argument. A name that begins with a dash gets a folder, because it would be taken for an option.
 fn scene_argument(source: &Path, named: impl Fn(&Path) -> PathBuf) -> OsString {
     let builtin = BUILTINS.iter().any(|builtin| source == Path::new(builtin.name));
     let path = if builtin { source.to_path_buf() } else { named(source) };
@@ -86,7 +86,7 @@ fn scene_argument(source: &Path, named: impl Fn(&Path) -> PathBuf) -> OsString {
     if dash { Path::new(".").join(path).into() } else { path.into() }
 }
 
-/// A word as a shell reads it. Bytes that are no text are written as bash, zsh and POSIX's shell of 2024 do.
+/// A word, quoted for a shell. Bytes that are not text are written in the syntax of bash, zsh and POSIX of 2024.
 pub fn quoted(word: &OsStr) -> String {
     let plain = |letter: char| letter.is_ascii_alphanumeric() || "-_./=,:+".contains(letter);
     match word.to_str() {

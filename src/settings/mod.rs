@@ -1,4 +1,4 @@
-//! Everything a user can set, in the two halves that decide when the film starts anew.
+//! Everything that a user can set. [`Estimator`] has the settings whose change starts the film anew, and [`View`] the others.
 
 mod arguments;
 pub mod list;
@@ -21,16 +21,16 @@ use crate::scene::{
 };
 use std::path::Path;
 
-/// The film's count is held in f32, which is exact up to here.
+/// The film stores counts in f32, which is exact up to this number.
 pub const MAX_SAMPLES: u32 = 1 << 24;
-/// The narrowest and widest jitter, in pixels. Accumulation looks at `ceil(jitter / 2 - 1 / 2)` pixels around.
+/// The smallest and the largest jitter, in pixels. Accumulation reads `ceil(jitter / 2 - 1 / 2)` pixels in each direction.
 pub const JITTERS: [f32; 2] = [0.0, 15.0];
-/// Samples per pixel of a headless picture, unless another number is asked for.
+/// The default number of samples per pixel without a window.
 pub const DEFAULT_SAMPLES: u32 = 64;
-/// Jitter in pixels across: a sample stays within its pixel.
+/// The default jitter, with which a sample stays within its pixel.
 pub const DEFAULT_JITTER: f32 = 1.0;
 
-/// What is rendered, how it is shown, and how far.
+/// What is rendered, how it is shown, and the number of samples.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
     /// A change here starts the film anew.
@@ -44,74 +44,74 @@ pub struct Settings {
 /// A place of the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Place {
-    /// Its middle.
+    /// The middle of the picture.
     Centre,
-    /// In pixels from its upper left corner.
+    /// A place in pixels from the upper left corner.
     At([f32; 2]),
 }
 
-/// Where to render.
+/// The device to render on.
 #[derive(Debug, Clone, Default)]
 pub struct DeviceChoice {
-    /// The device, by index or part of its name; none for the best.
+    /// The device, by its index or a part of its name. `None` chooses the best one.
     pub device: Option<String>,
-    /// Whether the validation layer watches; any message of it is a failure.
+    /// Whether the validation layer checks every call. Any message of it is a failure.
     pub validation: bool,
 }
 
-/// Whatever changes the integral that a pixel estimates.
+/// The settings that change the integral that a pixel estimates.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Estimator {
-    /// Shapes, materials, lights.
+    /// The shapes, materials and lights.
     pub scene: SceneRef,
-    /// Where the picture is taken from.
+    /// The position and the field of view of the camera.
     pub camera: Camera,
-    /// What forms the picture.
+    /// The camera model.
     pub model: CameraModel,
     /// The thin lens.
     pub lens: Lens,
     /// The hole of a camera without a lens.
     pub hole: Hole,
-    /// The shape of either.
+    /// The shape of the aperture of the lens or of the hole.
     pub aperture: Aperture,
-    /// How long the shutter is open, in seconds: what moves meanwhile is blurred.
+    /// How long the shutter is open, in seconds. What moves during this time is blurred.
     pub shutter: f32,
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// Width of the square around a pixel's centre that its samples fall in, in pixels.
+    /// The width of the square around a pixel's centre that its samples fall in, in pixels.
     pub jitter: f32,
-    /// How many reflections are followed.
+    /// The number of mirror reflections that are followed.
     pub max_bounces: u32,
     /// How sample values are made.
     pub sampler: Sampler,
-    /// Chooses the sample values.
+    /// The seed of the sample values.
     pub seed: u32,
-    /// Where not 0, a pixel stops once the standard error of its mean luminance, as a share of it or of
-    /// 0.05, whichever is more, is below this in every pixel around it, and so is what they can lose of things
-    /// that their samples have not met: see `shaders/core/adaptive.glsl`.
+    /// The threshold of adaptive sampling; 0 turns it off. A pixel stops when two relative errors are below the threshold in
+    /// the pixel and in all its neighbours: the standard error of the mean luminance, and the possible loss by things that
+    /// no sample has hit. Both are relative to the mean luminance, but at least to 0.05. See `shaders/core/adaptive.glsl`.
     pub noise_threshold: f32,
-    /// Whether the film keeps second moments, so that its error can be looked at. Adaptive ones always do.
+    /// Whether the film keeps second moments, so that its error can be shown. Adaptive films always do.
     pub keeps_moments: bool,
 }
 
 impl Estimator {
-    /// Whether the film has second moments.
+    /// Whether the film keeps second moments.
     pub fn has_moments(&self) -> bool {
         self.keeps_moments || self.is_adaptive()
     }
 
-    /// Whether pixels stop by themselves.
+    /// Whether sampling is adaptive.
     pub fn is_adaptive(&self) -> bool {
         self.noise_threshold > 0.0
     }
 
-    /// The f-number of the lens; infinite where its diameter is 0.
+    /// The f-number of the lens. Infinite if its diameter is 0.
     pub fn f_number(&self) -> f64 {
         self.camera.f_number(self.lens.diameter)
     }
 
-    /// What to warn of where f32 is too coarse for the picture: a device computes with it, seen from the middle of
-    /// the scene, and its steps would be seen where they are larger than a quarter of a pixel.
+    /// A warning if f32 is too coarse for this picture. Devices compute with f32 from the middle of the scene, and its steps
+    /// are visible if they are larger than a quarter of a pixel.
     pub fn too_coarse(&self) -> Option<String> {
         let camera = &self.camera;
         let from_middle = camera.eye.distance(self.scene.middle());
@@ -130,7 +130,7 @@ impl Estimator {
         })
     }
 
-    /// Puts a lens that people know in front of the camera.
+    /// Puts a well-known lens on the camera.
     pub fn take_preset(&mut self, preset: &Preset) {
         preset.apply(&mut self.camera, &mut self.model, &mut self.lens);
     }
@@ -144,15 +144,15 @@ impl Estimator {
 /// How sample values are made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Sampler {
-    /// Independent random numbers: error falls with the square root of their number.
+    /// Independent random numbers. The error falls with the square root of the number of samples.
     Random,
-    /// The Sobol sequence, Owen-scrambled, four dimensions for film and lens together: a pixel's samples
-    /// keep apart from each other on both. B. Burley, JCGT 9(4), 2020.
+    /// The Owen-scrambled Sobol sequence in four dimensions, for film and lens together. The samples of a pixel are spread
+    /// evenly on both. B. Burley, JCGT 9(4), 2020.
     Sobol,
-    /// The Sobol sequence, with the errors of neighbouring pixels opposed to each other, so that the eye averages them: most
-    /// with the first samples, and still a little with 16. The samples are arranged as E. Heitz, L. Belcour, V. Ostromoukhov, D. Coeurjolly and J.-C. Iehl
-    /// do, "A Low-Discrepancy Sampler that Distributes Monte Carlo Errors as a Blue Noise in Screen
-    /// Space", SIGGRAPH Talks 2019, but by masks on one sequence: I. Georgiev and M. Fajardo, "Blue-noise
+    /// The Sobol sequence, arranged so that the errors of neighbouring pixels are opposed and the eye averages them. The effect
+    /// is strongest with the first samples, and still there with 16. The samples are arranged as in E. Heitz, L. Belcour,
+    /// V. Ostromoukhov, D. Coeurjolly and J.-C. Iehl, "A Low-Discrepancy Sampler that Distributes Monte Carlo Errors as a Blue Noise in Screen
+    /// Space", SIGGRAPH Talks 2019, but with masks on one sequence: I. Georgiev and M. Fajardo, "Blue-noise
     /// Dithered Sampling", SIGGRAPH Talks 2016.
     #[default]
     BlueNoise,
@@ -165,7 +165,7 @@ impl Sampler {
 }
 
 impl Settings {
-    /// The settings that a scene was composed for.
+    /// The settings that the scene itself gives.
     pub fn of_scene(scene: SceneRef) -> Self {
         let view = scene.view;
         let mut settings = Self {
@@ -192,7 +192,7 @@ impl Settings {
         settings
     }
 
-    /// The files that it is made from, each with what it is called in a message.
+    /// The files that these settings were read from, each with its description for messages.
     pub fn files(&self) -> Vec<(&'static str, &Path)> {
         let Estimator { scene, aperture, .. } = &self.estimator;
         let of_scene = scene.files.iter().map(|file| ("a file of the scene", file.as_path()));
@@ -200,7 +200,7 @@ impl Settings {
         of_scene.chain(image).collect()
     }
 
-    /// What the scene was composed for, as it is sampled here.
+    /// The settings that the scene itself gives, sampled as these settings are.
     pub fn of_scene_alone(&self) -> Self {
         let mut settings = Self::of_scene(self.estimator.scene.clone());
         settings.estimator.size = self.estimator.size;
@@ -208,8 +208,8 @@ impl Settings {
         settings
     }
 
-    /// The settings of another scene. What is no part of scenes stays: the size, how it is sampled, and an overlay,
-    /// unless the scene has its own.
+    /// The settings for another scene. The size and everything about sampling stay as they are, and so does an overlay if
+    /// the scene has none of its own.
     #[must_use]
     pub fn with_scene(&self, scene: SceneRef) -> Self {
         let mut settings = Self::of_scene(scene);
@@ -224,13 +224,13 @@ impl Settings {
         settings
     }
 
-    /// Shows an overlay, or none. An error needs moments, which the film then keeps from its start.
+    /// Shows an overlay, or none. The overlay of the error needs moments, so the film keeps them from then on.
     pub fn show(&mut self, overlay: Option<Overlay>) {
         self.view.overlay = overlay;
         self.estimator.keeps_moments = needs_moments(overlay);
     }
 
-    /// Where the scale of an overlay ends: samples, share, or pixels.
+    /// The end of the scale of an overlay, in samples, pixels, or as a fraction.
     pub fn overlay_scale(&self, overlay: Overlay) -> f32 {
         match overlay.entry().full_scale {
             FullScale::Samples => self.samples as f32,
@@ -240,10 +240,10 @@ impl Settings {
         }
     }
 
-    /// How often as bright the picture is shown: relative to the scene with its own lens, shutter and film.
-    /// The light that comes in goes with the time, and with the opening's area, unless the exposure is locked or
-    /// there is a pinhole, through which none would: with the inverse square of the f-number, and with the share
-    /// of a disc that the opening's shape leaves open.
+    /// The brightness of the picture relative to the scene with its own lens, shutter and film. It is proportional to the
+    /// shutter time and to the speed of the film. Unless the exposure is locked, it is also proportional to the inverse
+    /// square of the f-number and to the fraction of a disc that the aperture leaves open. A pinhole would let in no light,
+    /// so it is treated as if the exposure were locked.
     pub fn exposure(&self) -> f32 {
         let (estimator, scene) = (&self.estimator, &*self.estimator.scene);
         let mut light =
@@ -268,15 +268,15 @@ impl Settings {
         self.view.exposure_stops.exp2() * light as f32
     }
 
-    /// Checks that every number is in its range, and that settings that belong together fit each other.
+    /// Checks that every number is in its range, and that the settings are consistent.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`], naming the option, the value and the range.
+    /// [`Error::OutOfRange`] with the option, the value and the range.
     pub fn check(&self) -> Result<()> {
         self.check_as(Called::Flag)
     }
 
-    /// Checks as [`Self::check`] does. Errors name the settings as the user called them.
+    /// Works as [`Self::check`] does, but errors call the settings what the user calls them.
     ///
     /// # Errors
     /// As [`Settings::check`].
@@ -296,7 +296,8 @@ impl Settings {
             .or_else(|reason| out_of_range(format!("the camera has no view: {reason}")))?;
         let [blades, cats_eye, image] = &names(["blades", "cats-eye", "aperture-image"]);
         aperture.validate([blades, cats_eye, image]).or_else(out_of_range)?;
-        // Chance lands more than its share in a pixel: by 16 standard deviations, never that many.
+        // With a wide jitter, chance may land more samples than this in a pixel. 2^16 is 16 standard deviations, which never
+        // happens.
         let most = if *jitter > DEFAULT_JITTER { MAX_SAMPLES - (1 << 16) } else { MAX_SAMPLES };
         let samples = || list::setting("samples").name(called);
         in_range(self.samples, [1, most]).or_else(|reason| out_of_range(format!("{} {reason}", samples())))
@@ -307,12 +308,12 @@ fn needs_moments(overlay: Option<Overlay>) -> bool {
     overlay.is_some_and(|overlay| overlay.entry().source == Source::Moments)
 }
 
-/// What a value is called on the command line and in scene files.
+/// The name of a value on the command line and in scene files.
 fn name_of<T: PartialEq>(names: &[(&'static str, T)], value: &T) -> &'static str {
     names.iter().find(|(_, named)| named == value).map_or("", |(name, _)| name)
 }
 
-/// The value of this name.
+/// The value with this name.
 fn named<T: Copy>(names: &[(&'static str, T)], name: &str) -> Option<T> {
     names.iter().find(|(known, _)| *known == name).map(|(_, value)| *value)
 }

@@ -1,4 +1,4 @@
-//! The list of settings as options of a command line, and what was given there.
+//! The settings as options of the command line, and the values that were given there.
 
 use super::setting::file;
 use super::{Access, Called, Role, Setting, Settings, Value, list};
@@ -6,12 +6,12 @@ use crate::error::Result;
 use clap::builder::{PathBufValueParser, PossibleValue, PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgMatches, Command, FromArgMatches};
 
-/// What is to be changed of settings, in the order of the list.
+/// New values for some settings, in the order of the list.
 #[derive(Clone, Default)]
 pub struct Changes(Vec<(&'static Setting, Value)>);
 
 impl Changes {
-    /// What was given.
+    /// The values that were given.
     pub fn of_matches(matches: &ArgMatches) -> Self {
         let given = |setting: &'static Setting| {
             matches.get_one::<Value>(setting.flag).map(|value| (setting, value.clone()))
@@ -19,7 +19,7 @@ impl Changes {
         Self(list::all().filter_map(given).collect())
     }
 
-    /// Of one setting, by its flag.
+    /// A new value for the setting with this flag.
     pub fn of(flag: &str, value: Value) -> Self {
         Self(vec![(list::setting(flag), value)])
     }
@@ -29,15 +29,15 @@ impl Changes {
         self.0.is_empty()
     }
 
-    /// What was given for the setting with this flag.
+    /// The new value of the setting with this flag, if there is one.
     pub fn get(&self, flag: &str) -> Option<&Value> {
         self.0.iter().find(|(setting, _)| setting.flag == flag).map(|(_, value)| value)
     }
 
-    /// Changes what was given, and leaves the rest.
+    /// Changes the settings that have a new value.
     ///
     /// # Errors
-    /// [`crate::error::Error::OutOfRange`], or of an image.
+    /// [`crate::error::Error::OutOfRange`], or the errors of reading an image.
     pub fn apply(&self, settings: &mut Settings) -> Result<()> {
         for (setting, value) in &self.0 {
             setting.check(value, Called::Flag)?;

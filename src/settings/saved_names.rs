@@ -1,5 +1,5 @@
-//! Names in JSON. Text is a string; a name that is none, which systems allow, is an object with its numbers:
-//! `{"Unix": [99, 97, 102, 233]}`, so that it names the same file again. For `#[serde(with = ...)]`.
+//! File names in JSON, for `#[serde(with = ...)]`. A name that is text is a string. Systems also allow names that are not
+//! text. Such a name is an object with its bytes, `{"Unix": [99, 97, 102, 233]}`, so that no name is lost.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::ffi::{OsStr, OsString};
@@ -22,7 +22,7 @@ pub fn serialize<T: AsRef<OsStr>, S: Serializer>(names: &[T], serializer: S) -> 
     }))
 }
 
-/// Reads it again.
+/// Reads a list of names.
 ///
 /// # Errors
 /// Those of the deserializer.

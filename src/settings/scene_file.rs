@@ -1,4 +1,4 @@
-//! Settings as a scene file: the scene's own, with the camera, its lens and the view as they are now.
+//! Writes settings to a scene file: the scene's own file, with the current camera, lens and view.
 
 use super::arguments::quoted;
 use super::setting::NONE;
@@ -9,19 +9,19 @@ use std::path::{Path, PathBuf};
 use toml_edit::{Array, DocumentMut, Item, TableLike, value};
 
 impl Settings {
-    /// The text of a scene file in this folder that gives this picture, but for how it is sampled. What the
-    /// scene's own file says otherwise stays, comments too. Where brightness is what changed, it goes into
-    /// `exposure`, for a scene's brightness is relative to its own lens and shutter.
+    /// The text of a scene file in this folder that gives this picture, except for how it is sampled. Everything else in the
+    /// scene's own file stays, including comments. If lens or shutter have changed the brightness, `exposure` makes up for
+    /// it, because the brightness of a scene is relative to its own lens and shutter.
     ///
     /// # Errors
-    /// Of reading the scene's own file, which may have changed since.
+    /// Errors of reading the scene's own file, which may have changed since it was loaded.
     pub fn scene_file(&self, folder: &Path) -> Result<String> {
         let source = &self.estimator.scene.source;
         // The file may have changed since it was loaded.
         let Loaded { scene, text, folder: own_folder } = scene::load_with_text(source)?;
         let unusable =
             |message: String| Error::Scene { file: source.display().to_string(), line: 1, message };
-        // The text of the stage around a mesh has its name.
+        // The text of the scene around a mesh contains the name of the mesh, relative to the old folder.
         let is_mesh = source.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj"));
         if is_mesh && source.file_name().is_some_and(|name| name.to_str().is_none()) {
             return Err(not_text(source));
@@ -41,7 +41,7 @@ impl Settings {
             };
             let value = setting.get(&saved);
             let given = table(&mut document, key).is_some_and(|table| table.contains_key(key.name));
-            // A file has another path from another folder.
+            // The path of a file depends on the folder of the scene file.
             let moves = matches!(value, Value::File(_));
             let follows = || key.rests_on.iter().any(|flag| changed(flag)) && !given;
             if changed(setting.flag) || moves || apart.contains(&setting.flag) || follows() {
@@ -61,7 +61,8 @@ impl Settings {
         Ok(document.to_string())
     }
 
-    /// The same picture, whose brightness is all in its exposure: a scene's is relative to its own lens and shutter.
+    /// The same picture, with all of its brightness in `exposure`: the brightness of a scene is relative to its own lens and
+    /// shutter.
     fn with_whole_exposure(&self) -> Result<Self> {
         let mut saved = self.clone();
         let brightness = self.exposure();
@@ -74,8 +75,8 @@ impl Settings {
     }
 }
 
-/// Takes those keys out that stand for several settings, as a known lens does, and gives the flags of these: what
-/// is left of it once one of them changes could not be told.
+/// Removes the keys that stand for several settings, such as a known lens, and returns the flags of these settings, to be
+/// written one by one, because any of them may have changed.
 fn take_apart(document: &mut DocumentMut) -> Vec<&'static str> {
     let mut apart = Vec::new();
     for alias in list::all() {
@@ -96,7 +97,7 @@ fn table<'a>(document: &'a mut DocumentMut, key: &Key) -> Option<&'a mut dyn Tab
     }
 }
 
-/// Writes a key in place of others that give the same, or takes it out.
+/// Writes a key and removes other keys for the same setting. Without a value, only removes.
 fn write(document: &mut DocumentMut, setting: &Setting, key: &Key, item: Option<Item>) {
     if item.is_some() && table(document, key).is_none() {
         document.insert(key.table, toml_edit::table());
@@ -113,7 +114,7 @@ fn write(document: &mut DocumentMut, setting: &Setting, key: &Key, item: Option<
     };
 }
 
-/// A value as a scene file has it; none where the key is left out.
+/// A value as it is written in a scene file. `None` if the key is left out.
 fn item(is: &Value, files: &Files) -> Result<Option<Item>> {
     Ok(Some(match is {
         Value::Single(number) => value(digits(*number)),
@@ -128,7 +129,7 @@ fn item(is: &Value, files: &Files) -> Result<Option<Item>> {
     }))
 }
 
-/// The number of as few digits that comes back as this f32.
+/// The number with the fewest digits that is read back as this f32.
 fn digits(number: f32) -> f64 {
     number.to_string().parse().unwrap_or(f64::from(number))
 }
@@ -137,14 +138,14 @@ fn list<T: Into<toml_edit::Value>>(values: impl IntoIterator<Item = T>) -> Item 
     value(values.into_iter().collect::<Array>())
 }
 
-/// Where a scene's files are seen from.
+/// The folders of the old and the new scene file.
 struct Files {
     from: PathBuf,
     to: PathBuf,
 }
 
 impl Files {
-    /// A mesh is found from the new scene.
+    /// Changes the path of a mesh, so that the new scene file finds it.
     fn move_mesh(&self, mesh: &mut dyn TableLike) -> Result<()> {
         if let Some(file) = mesh.get("file").and_then(Item::as_str).map(|file| self.from.join(file)) {
             mesh.insert("file", value(self.seen(&file)?));
@@ -152,7 +153,7 @@ impl Files {
         Ok(())
     }
 
-    /// How a file is called in the new scene: from its folder if it lies in there, else by its whole path.
+    /// The path of a file in the new scene: relative if the file lies in the folder of the scene, or else absolute.
     fn seen(&self, file: &Path) -> Result<String> {
         let whole = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
         let (file, folder) = (whole(file), whole(&self.to));
@@ -161,7 +162,7 @@ impl Files {
     }
 }
 
-/// A scene file is text, and would name another file.
+/// An error for a file name that is not text: a scene file is text, and would name another file.
 fn not_text(path: &Path) -> Error {
     let path = quoted(path.as_os_str());
     Error::OutOfRange(format!(

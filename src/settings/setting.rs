@@ -1,4 +1,4 @@
-//! What a setting is: how it is called, what it may be, and where its value stands.
+//! The description of a setting: its names, its values, and its place in [`Settings`].
 
 use super::Settings;
 use crate::error::{Error, Result};
@@ -7,94 +7,94 @@ use glam::DVec3;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-/// One setting. Command line, scene files, pictures, the panel and the documentation know of it by this alone.
+/// A setting. The command line, scene files, saved pictures, the panel and the documentation use only this description.
 pub struct Setting {
-    /// Its option's name, without dashes.
+    /// The name of its option, without dashes.
     pub flag: &'static str,
-    /// Its option's letter, if it has one.
+    /// The letter of its option, if it has one.
     pub letter: Option<char>,
-    /// What the help calls the option's value. Empty where the names of the choices stand there.
+    /// The name of the value in the help. Empty if the help lists the choices instead.
     pub value_name: &'static str,
     /// What it does.
     pub help: &'static str,
-    /// What it is unless it is given, in words; empty where that goes without saying.
+    /// Its default value, in words. Empty if there is nothing to say.
     pub default: &'static str,
-    /// What a change of it changes.
+    /// What a change of the setting affects.
     pub role: Role,
-    /// Its key in a scene file. Where it has none, it says how a scene is sampled: then scene files do not carry
-    /// it, and it stays when another scene is opened.
+    /// Its key in a scene file. A setting without a key says how a scene is sampled: scene files do not store it, and it stays
+    /// as it is when another scene is opened.
     pub key: Option<Key>,
-    /// Where its value stands, and what it may be.
+    /// How to read and write its value, and the range of the value.
     pub access: Access,
-    /// Its row of the viewer's panel, if it has one.
+    /// Its row in the viewer's panel, if it has one.
     pub row: Option<Row>,
 }
 
-/// What a change of a setting changes.
+/// What a change of a setting affects.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
-    /// The integral that a pixel estimates: the film starts anew.
+    /// The integral that a pixel estimates. The film starts anew.
     Estimator,
     /// How the film is shown.
     View,
-    /// How many samples the film gets.
+    /// The number of samples in the film.
     Samples,
-    /// The settings with these flags: it is another way to give them and has no value of its own. One that stands
-    /// for a single setting cannot be given beside it.
+    /// The settings with these flags. An alias is another way to give them and has no value of its own. An alias for a single
+    /// setting cannot be given together with that setting.
     Alias(&'static [&'static str]),
 }
 
 /// A key of a scene file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Key {
-    /// Its table; empty for the top of the file.
+    /// The table of the key. Empty for the top of the file.
     pub table: &'static str,
-    /// Its name.
+    /// The name of the key.
     pub name: &'static str,
-    /// Other keys by which a file can give it. They go where it is written.
+    /// Other keys that a file can use for the same setting. They are removed when this key is written.
     pub otherwise: &'static [&'static str],
-    /// The flags of settings on which it depends where a file does not have the key itself.
+    /// The flags of the settings that the value depends on if a file does not have this key.
     pub rests_on: &'static [&'static str],
 }
 
-/// Where a value stands.
+/// How to read and write a value in [`Settings`].
 pub struct Field<T> {
-    /// Gives it.
+    /// Reads the value.
     pub get: fn(&Settings) -> T,
-    /// Changes it.
+    /// Writes the value.
     pub set: fn(&mut Settings, T),
 }
 
-/// Where the value of a setting stands, by its kind, and the range that it has to lie in: lowest and highest.
+/// How to read and write the value of a setting, by its type, and the range of the value: the lowest and the highest.
 pub enum Access {
     /// A number.
     Single(Field<f32>, [f32; 2]),
-    /// A number with twice the digits.
+    /// A number in double precision.
     Double(Field<f64>, [f64; 2]),
     /// A time in seconds, which can also be given as a fraction.
     Seconds(Field<f32>, [f32; 2]),
     /// A whole number.
     Whole(Field<u32>, [u32; 2]),
-    /// A whole number, or 0, which means what the text says.
+    /// A whole number, or 0. The text says what 0 means.
     WholeOrZero(Field<u32>, [u32; 2], &'static str),
     /// Yes or no.
     Switch(Field<bool>),
-    /// A place or direction.
+    /// A position or a direction.
     Vector(Field<DVec3>, [f64; 2]),
-    /// A width and a height, in pixels.
+    /// A width and a height in pixels.
     Size(Field<[u32; 2]>, [u32; 2]),
-    /// One of several, by its name.
+    /// One of several choices, by its name.
     Choice(Field<&'static str>, fn() -> Vec<Choice>),
-    /// An image in a file, or none.
+    /// An image file, or none.
     Image(Field<Option<ApertureImage>>),
 }
 
-/// One of several things that a setting can be.
+/// One of the choices of a setting.
 #[derive(Debug, Clone, Copy)]
 pub struct Choice {
-    /// What it is called on the command line and in scene files.
+    /// The name on the command line and in scene files.
     pub name: &'static str,
-    /// What it is called in the panel.
+    /// The name in the panel.
     pub label: &'static str,
     /// What it does.
     pub help: &'static str,
@@ -102,21 +102,21 @@ pub struct Choice {
 
 /// A row of the viewer's panel.
 pub struct Row {
-    /// The part of the panel where it stands. The rows of a part stand in the order of the list.
+    /// The part of the panel that has the row. The rows of a part are in the order of the list.
     pub part: Part,
-    /// What it is called.
+    /// The name of the row.
     pub label: &'static str,
-    /// What its tooltip says.
+    /// The text of the tooltip.
     pub help: &'static str,
-    /// Whether it does anything now; else it is not shown.
+    /// Whether the row is shown: whether the setting has an effect with these settings.
     pub shown: fn(&Settings) -> bool,
-    /// How its value is changed.
+    /// The control that changes the value.
     pub widget: Widget,
 }
 
 /// A part of the viewer's panel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[allow(missing_docs, reason = "they are called as the parts of the panel are")]
+#[allow(missing_docs, reason = "the names are those of the parts of the panel")]
 pub enum Part {
     Top,
     Points,
@@ -129,59 +129,59 @@ pub enum Part {
     View,
 }
 
-/// How a row changes a value.
+/// The control of a row.
 pub enum Widget {
     /// A slider.
     Slider(Slider),
-    /// A box with a tick for yes.
+    /// A check box.
     Box,
-    /// A box with a tick for one number, and without one for another.
+    /// A check box that switches between two numbers.
     BoxOf {
-        /// With a tick.
+        /// The number when the box is checked.
         ticked: f32,
-        /// Without.
+        /// The number when it is not.
         plain: f32,
     },
-    /// A list that folds out.
+    /// A drop-down list.
     List,
-    /// Three numbers that are dragged.
+    /// Three numbers that can be dragged.
     Drag,
 }
 
-/// How a slider goes over its values.
+/// The range and the scale of a slider.
 pub struct Slider {
-    /// From where to where, for a scene that has these settings of its own.
+    /// Both ends of the slider, given the settings that the scene was opened with.
     pub range: fn(&Settings) -> [f32; 2],
-    /// How a value is shown, in the language of C's `printf`.
+    /// The format of a value for C's `printf`.
     pub format: fn(f32) -> Cow<'static, str>,
-    /// Whether equal ways are equal ratios, not equal differences.
+    /// Whether the scale is logarithmic.
     pub logarithmic: bool,
-    /// Whether a value becomes what is shown of it, with no more digits.
+    /// Whether the value is rounded to the digits that are shown.
     pub rounds: bool,
 }
 
-/// What a setting is, or is to be.
+/// A value of a setting.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Value {
-    /// Of [`Access::Single`] and [`Access::Seconds`].
+    /// For [`Access::Single`] and [`Access::Seconds`].
     Single(f32),
-    /// Of [`Access::Double`].
+    /// For [`Access::Double`].
     Double(f64),
-    /// Of [`Access::Whole`] and [`Access::WholeOrZero`].
+    /// For [`Access::Whole`] and [`Access::WholeOrZero`].
     Whole(u32),
-    /// Of [`Access::Switch`].
+    /// For [`Access::Switch`].
     Switch(bool),
-    /// Of [`Access::Vector`].
+    /// For [`Access::Vector`].
     Vector(DVec3),
-    /// Of [`Access::Size`].
+    /// For [`Access::Size`].
     Size([u32; 2]),
-    /// Of [`Access::Choice`].
+    /// For [`Access::Choice`].
     Name(&'static str),
-    /// Of [`Access::Image`]: its file.
+    /// For [`Access::Image`]: the file.
     File(Option<PathBuf>),
 }
 
-/// Where a user gives a setting, and so what an error calls it.
+/// Where the user gives a setting. This decides what an error calls it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Called {
     /// On the command line.
@@ -192,11 +192,11 @@ pub enum Called {
     Label,
 }
 
-/// What is given in place of a name where none is wanted.
+/// The name that stands for no image and for no overlay.
 pub(super) const NONE: &str = "none";
 
 impl Setting {
-    /// What the user calls it.
+    /// What the user calls the setting.
     pub fn name(&self, called: Called) -> String {
         match (called, &self.key, &self.row) {
             (Called::Key, Some(key), _) => key.name.into(),
@@ -205,7 +205,7 @@ impl Setting {
         }
     }
 
-    /// Its value.
+    /// The value of the setting.
     pub fn get(&self, settings: &Settings) -> Value {
         match &self.access {
             Access::Single(field, _) | Access::Seconds(field, _) => Value::Single((field.get)(settings)),
@@ -219,10 +219,10 @@ impl Setting {
         }
     }
 
-    /// Gives it a value of its kind.
+    /// Sets the value, which must have the type of the setting.
     ///
     /// # Errors
-    /// Of an image.
+    /// The errors of reading an image.
     pub fn set(&self, settings: &mut Settings, value: &Value) -> Result<()> {
         match (&self.access, value) {
             (Access::Single(field, _) | Access::Seconds(field, _), Value::Single(value)) => {
@@ -245,10 +245,10 @@ impl Setting {
         Ok(())
     }
 
-    /// Holds a value against the setting's range.
+    /// Checks that a value is in the range of the setting.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`], with what the user calls it, the value and the range.
+    /// [`Error::OutOfRange`] with the name of the setting, the value and the range.
     pub fn check(&self, value: &Value, called: Called) -> Result<()> {
         let checked = match (&self.access, value) {
             (Access::Single(_, range) | Access::Seconds(_, range), Value::Single(value)) => {
@@ -273,10 +273,10 @@ impl Setting {
         checked.map_err(|reason| Error::OutOfRange(format!("{} {reason}", self.name(called))))
     }
 
-    /// A value of its kind from a text of the command line.
+    /// Parses a value from the text of the command line.
     ///
     /// # Errors
-    /// What would be right.
+    /// A sentence about how a value is written.
     pub fn parse(&self, text: &str) -> Result<Value, String> {
         let (value, right) = match &self.access {
             Access::Single(..) => {
@@ -310,18 +310,18 @@ impl Setting {
         value.ok_or_else(|| right.into())
     }
 
-    /// Whether it says how a scene is sampled, which is no part of a scene.
+    /// Whether the setting says how a scene is sampled, and so is not a part of the scene.
     pub fn is_of_sampling(&self) -> bool {
         self.key.is_none()
     }
 
-    /// Whether it is another way to give other settings.
+    /// Whether the setting is another way to give other settings.
     pub fn is_alias(&self) -> bool {
         matches!(self.role, Role::Alias(_))
     }
 }
 
-/// What a file's name on the command line stands for.
+/// The file that a name on the command line stands for.
 pub(super) fn file(path: &Path) -> Value {
     Value::File((path.as_os_str() != NONE).then(|| path.to_path_buf()))
 }

@@ -1,25 +1,25 @@
-//! One picture for each of several lenses.
+//! A series of pictures with different lenses or focal distances.
 
 use super::{Changes, Settings, Value};
 use crate::error::{Error, Result};
 use crate::scene::CameraModel;
 
-/// Pictures that one sheet can hold.
+/// The largest number of pictures on a sheet.
 const MOST: usize = 64;
 
-/// What changes from one picture to the next, and the values that it takes.
+/// The value that changes from picture to picture.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Sweep {
     /// The lens, by its f-number.
     FNumbers(Vec<f64>),
     /// The lens, by its diameter in scene units.
     LensDiameters(Vec<f32>),
-    /// The plane in focus, by its distance in scene units.
+    /// The distance of the focal plane in scene units.
     FocalDistances(Vec<f32>),
 }
 
 impl Sweep {
-    /// The settings of each picture, in order: these, but for the one value.
+    /// The settings of each picture, in order: these settings with the one value changed.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for values out of range, too many of them, or a camera without a lens.
@@ -50,7 +50,7 @@ impl Sweep {
         Ok(pictures)
     }
 
-    /// What to write under each picture: the value, and what else is worth knowing.
+    /// The caption of each picture.
     pub fn labels(&self, picture: &Settings) -> [String; 2] {
         let lens = &picture.estimator.lens;
         let f_number = picture.estimator.f_number();
@@ -65,7 +65,7 @@ impl Sweep {
     }
 }
 
-/// To three digits, without zeros at the end.
+/// A number with three digits, without trailing zeros.
 fn digits(value: f64) -> String {
     let places = if value == 0.0 { 0.0 } else { (2.0 - value.abs().log10().floor()).clamp(0.0, 12.0) };
     let text = format!("{value:.*}", places as usize);

@@ -1,4 +1,4 @@
-//! The shape of the opening.
+//! The shape of the aperture.
 
 use super::{EVEN, LOGARITHMIC, camera, field, row};
 use crate::scene::{ANAMORPHICS, BLADES, CATS_EYES, ROTATIONS, ROUNDNESSES};
@@ -14,14 +14,14 @@ fn has_rim(settings: &Settings) -> bool {
     aperture.image.is_none() && aperture.blades == 0 && aperture.cats_eye > 0.0
 }
 
-/// The shape of the opening.
+/// The shape of the aperture.
 pub(super) static APERTURE: &[Setting] = &[
     Setting {
         flag: "blades",
         letter: None,
         value_name: "N",
-        help: "The opening's shape: an iris of so many blades, 3 to 16; 0 is a disc. The blades' corners lie on the \
-               rim of the lens's diameter: 5 let in 76% of a disc's light, 8 90%",
+        help: "The number of blades of the iris, 3 to 16, or 0 for a disc. The corners of the blades lie on the rim of \
+               the lens: 5 blades let in 76% of a disc's light, 8 let in 90%",
         default: "the scene's, or 0",
         role: Role::Estimator,
         key: camera("blades"),
@@ -29,7 +29,7 @@ pub(super) static APERTURE: &[Setting] = &[
         row: Some(Row {
             part: Part::Aperture,
             label: "Blades",
-            help: "How many blades the iris has. Their corners lie on the rim of the lens diameter: six let in 83% of the light of a disc.",
+            help: "The number of blades of the iris. Their corners lie on the rim of the lens: six blades let in 83% of the light of a disc.",
             shown: has_iris,
             widget: Widget::Slider(Slider {
                 range: |_| BLADES.map(|count| count as f32),
@@ -42,8 +42,8 @@ pub(super) static APERTURE: &[Setting] = &[
         flag: "blade-rotation",
         letter: None,
         value_name: "DEG",
-        help: "Turns the iris anticlockwise, in degrees, seen from behind the camera; at 0 the middle of a blade's \
-               edge is at the right",
+        help: "The angle by which the iris is turned anticlockwise, in degrees, as seen from behind the camera. At 0, \
+               the middle of a blade's edge is at the right",
         default: "the scene's, or 0",
         role: Role::Estimator,
         key: camera("blade_rotation_degrees"),
@@ -51,7 +51,7 @@ pub(super) static APERTURE: &[Setting] = &[
         row: Some(Row {
             part: Part::Aperture,
             label: "Blade rotation",
-            help: "How far the iris is turned anticlockwise, in degrees, seen from behind the camera. At 0 the middle of an edge is at the right.",
+            help: "The angle by which the iris is turned anticlockwise, in degrees, as seen from behind the camera. At 0, the middle of an edge is at the right.",
             shown: has_iris,
             widget: Widget::Slider(Slider {
                 range: |_| [-90.0, 90.0],
@@ -64,7 +64,7 @@ pub(super) static APERTURE: &[Setting] = &[
         flag: "roundness",
         letter: None,
         value_name: "R",
-        help: "How far the blades' edges are bent: 0 a polygon, 1 a disc",
+        help: "The curvature of the blades' edges: 0 gives a polygon, 1 a disc",
         default: "the scene's, or 0",
         role: Role::Estimator,
         key: camera("roundness"),
@@ -72,7 +72,7 @@ pub(super) static APERTURE: &[Setting] = &[
         row: Some(Row {
             part: Part::Aperture,
             label: "Roundness",
-            help: "How far the blades' edges are bent: 0 is a polygon, 1 a disc.",
+            help: "The curvature of the blades' edges: 0 gives a polygon, 1 a disc.",
             shown: has_iris,
             widget: Widget::Slider(EVEN),
         }),
@@ -81,8 +81,9 @@ pub(super) static APERTURE: &[Setting] = &[
         flag: "cats-eye",
         letter: None,
         value_name: "C",
-        help: "Optical vignetting: how far the lens's front rim is off its centre, seen from the picture's corner, in \
-               diameters, up to 1; highlights turn into cat's eyes there, and the corners darken",
+        help: "Optical vignetting: the distance of the front rim from the centre of the lens, as seen from a corner of \
+               the picture, in diameters, up to 1. Highlights near the corners take the shape of cat's eyes, and the \
+               corners darken",
         default: "the scene's, or 0",
         role: Role::Estimator,
         key: camera("cats_eye"),
@@ -90,7 +91,7 @@ pub(super) static APERTURE: &[Setting] = &[
         row: Some(Row {
             part: Part::Aperture,
             label: "Rim",
-            help: "How far the front rim is off the lens's centre, seen from the picture's corner, in diameters.",
+            help: "The distance of the front rim from the centre of the lens, as seen from a corner of the picture, in diameters.",
             shown: has_rim,
             widget: Widget::Slider(Slider { range: |_| [0.01, 1.0], ..EVEN }),
         }),
@@ -99,7 +100,7 @@ pub(super) static APERTURE: &[Setting] = &[
         flag: "anamorphic",
         letter: None,
         value_name: "A",
-        help: "The opening's height over its width, 0.1 to 10; the longer is the diameter",
+        help: "The height of the aperture divided by its width, 0.1 to 10. The longer of the two is the lens diameter",
         default: "the scene's, or 1",
         role: Role::Estimator,
         key: camera("anamorphic"),
@@ -107,7 +108,7 @@ pub(super) static APERTURE: &[Setting] = &[
         row: row(
             Part::Aperture,
             "Anamorphic",
-            "How often the opening's width goes into its height. Lenses for wide screens squeeze the picture, and leave tall ovals.",
+            "The height of the aperture divided by its width. Lenses for wide screens squeeze the picture, and blur into tall ovals.",
             Widget::Slider(Slider {
                 range: |_| [0.5, 2.0],
                 format: |_| "%.2f".into(),
@@ -119,7 +120,7 @@ pub(super) static APERTURE: &[Setting] = &[
         flag: "aperture-image",
         letter: None,
         value_name: "FILE.png",
-        help: "The shape of a PNG: light comes in where it is bright; none takes the scene's away",
+        help: "A PNG file with the shape of the aperture: light comes in where it is bright. none removes the image of the scene",
         default: "the scene's",
         role: Role::Estimator,
         key: camera("aperture_image"),

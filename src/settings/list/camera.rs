@@ -1,21 +1,21 @@
-//! Where the camera stands, and how much it sees.
+//! The position and the field of view of the camera.
 
 use super::{EVEN, camera, field, row};
 use crate::scene::{METRES_PER_UNIT, PLACES, PRESETS, Preset, VFOV_DEGREES};
 use crate::settings::{Access, Choice, Field, Key, Part, Role, Setting, Slider, Widget};
 
-/// Where the camera stands. A known lens comes before what can be changed of it.
+/// The position and the field of view of the camera. Known lenses come before the settings that they change.
 pub(super) static CAMERA: &[Setting] = &[
     Setting {
         flag: "eye",
         letter: None,
         value_name: "X,Y,Z",
-        help: "Where the lens centre is",
+        help: "The position of the centre of the lens",
         default: "the scene's",
         role: Role::Estimator,
         key: camera("eye"),
         access: Access::Vector(field!(estimator.camera.eye), PLACES),
-        row: row(Part::Viewpoint, "Lens centre", "Where the camera stands: x, y up, z.", Widget::Drag),
+        row: row(Part::Viewpoint, "Lens centre", "The position of the camera: x, y up, z.", Widget::Drag),
     },
     Setting {
         flag: "look-at",
@@ -29,7 +29,7 @@ pub(super) static CAMERA: &[Setting] = &[
         row: row(
             Part::Viewpoint,
             "Looks at",
-            "A point on the line of sight; orbiting goes around it.",
+            "A point on the line of sight. Orbiting turns the camera around it.",
             Widget::Drag,
         ),
     },
@@ -37,7 +37,7 @@ pub(super) static CAMERA: &[Setting] = &[
         flag: "up",
         letter: None,
         value_name: "X,Y,Z",
-        help: "Which way is roughly up",
+        help: "The direction that is roughly up",
         default: "the scene's",
         role: Role::Estimator,
         key: camera("up"),
@@ -48,7 +48,7 @@ pub(super) static CAMERA: &[Setting] = &[
         flag: "metres-per-unit",
         letter: None,
         value_name: "M",
-        help: "Length of a scene unit in metres: it ties the scene to millimetres of film and lens",
+        help: "The length of a scene unit in metres: it relates the scene to the millimetres of film and lens",
         default: "the scene's",
         role: Role::Estimator,
         key: camera("metres_per_unit"),
@@ -59,9 +59,10 @@ pub(super) static CAMERA: &[Setting] = &[
         flag: "preset",
         letter: None,
         value_name: "NAME",
-        help: "A known lens: pinhole; a 50 mm lens, which sets the field of view too; or the human eye, by the width \
-               of its pupil. The film of a 50 mm lens stays where it is for infinity, so near by it frames wider than \
-               a lens that is screwed out: at 0.5 m as one of 45.5 mm would. Other options change it further",
+        help: "A known lens: a pinhole; a 50 mm lens, which also sets the field of view; or the human eye, by the width \
+               of its pupil. The film of a 50 mm lens stays where it is for focus at infinity. So at close range the \
+               field of view is wider than that of a real lens: at 0.5 m it is that of a 45.5 mm lens. Other options \
+               change the lens further",
         default: "",
         role: Role::Alias(&["vfov", "camera", "lens-diameter"]),
         key: camera("preset"),
@@ -82,7 +83,7 @@ pub(super) static CAMERA: &[Setting] = &[
         row: row(
             Part::Lens,
             "Known lenses",
-            "Puts a lens that people know in front of the camera. What is in focus stays in focus.",
+            "Puts a well-known lens on the camera. What is in focus stays in focus.",
             Widget::List,
         ),
     },
@@ -90,7 +91,7 @@ pub(super) static CAMERA: &[Setting] = &[
         flag: "vfov",
         letter: None,
         value_name: "DEG",
-        help: "Field of view from the lower to the upper edge, in degrees",
+        help: "The vertical field of view, from the lower to the upper edge, in degrees",
         default: "the scene's",
         role: Role::Estimator,
         key: Some(Key {
@@ -109,7 +110,7 @@ pub(super) static CAMERA: &[Setting] = &[
         row: row(
             Part::Viewpoint,
             "Field of view",
-            "The angle from the lower to the upper edge. The f-number changes with it: the film moves, and the lens stays as wide.",
+            "The angle from the lower to the upper edge. The f-number changes with it, because the film moves and the lens keeps its diameter.",
             Widget::Slider(Slider {
                 range: |_| VFOV_DEGREES.map(|end| end as f32),
                 format: |_| "%.1f degrees".into(),

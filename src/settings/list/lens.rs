@@ -1,4 +1,4 @@
-//! What forms the picture: the lens or the hole.
+//! The lens, or the hole of a camera without a lens.
 
 use super::{EVEN, LOGARITHMIC, by_name, camera, field, row};
 use crate::scene::{CameraModel, DIAMETERS, F_NUMBERS, FOCAL_DISTANCES, MAX_LENGTH, MIN_LENGTH};
@@ -6,18 +6,18 @@ use crate::settings::{
     Access, Choice, Field, Key, Part, Role, Row, Setting, Settings, Slider, Widget, name_of, named,
 };
 
-/// The cameras, as people know them.
+/// The camera models, as shown to the user.
 const CAMERAS: [Choice; 3] = [
     Choice {
         name: "thin-lens",
         label: "Thin lens",
-        help: "Sharp in one plane, and blurred before and behind it: the wider, the more. An ideal lens: real ones also have coloured reflections, which their coatings leave over.",
+        help: "Sharp in one plane, and blurred in front of it and behind it. A wider lens blurs more. This is an ideal lens: real ones also have coloured reflections, which their coatings do not suppress entirely.",
     },
-    Choice { name: "pinhole", label: "Ideal pinhole", help: "A hole without size: everything is sharp." },
+    Choice { name: "pinhole", label: "Ideal pinhole", help: "A hole of no size: everything is sharp." },
     Choice {
         name: "hole",
         label: "Hole, no lens",
-        help: "A box with a hole: upside down, for the light crosses in the hole; sharp through a small one, fuzzy and brighter through a large one.",
+        help: "A box with a hole. The picture is upside down, because light crosses over in the hole. A small hole gives a sharp picture, a large one a fuzzier and brighter one.",
     },
 ];
 
@@ -44,25 +44,25 @@ fn hole_diameters(initial: &Settings) -> [f32; 2] {
     [0.0, (20.0 * initial.estimator.camera.default_hole_diameter()).min(MAX_LENGTH)]
 }
 
-/// The lens or the hole.
+/// The lens, or the hole of a camera without a lens.
 pub(super) static LENS: &[Setting] = &[
     Setting {
         flag: "camera",
         letter: None,
         value_name: "",
-        help: "What forms the picture: a thin lens, an ideal pinhole that leaves everything sharp, or a real hole in \
-               a box, without a lens",
+        help: "The camera model: a thin lens, an ideal pinhole with which everything is sharp, or a real hole in a box \
+               without a lens",
         default: "the scene's",
         role: Role::Estimator,
         key: camera("model"),
         access: Access::Choice(by_name!(CameraModel::NAMES, estimator.model), || CAMERAS.to_vec()),
-        row: row(Part::Model, "Camera", "What forms the picture.", Widget::List),
+        row: row(Part::Model, "Camera", "A lens, an ideal pinhole, or a hole without a lens.", Widget::List),
     },
     Setting {
         flag: "lens-diameter",
         letter: None,
         value_name: "L",
-        help: "Diameter of the lens, in scene units: wider blurs more, 0 is a pinhole",
+        help: "The diameter of the lens, in scene units. A wider lens blurs more, and 0 is a pinhole",
         default: "the scene's",
         role: Role::Estimator,
         key: Some(Key {
@@ -75,7 +75,7 @@ pub(super) static LENS: &[Setting] = &[
         row: Some(Row {
             part: Part::Top,
             label: "Lens diameter",
-            help: "How wide the lens is, in scene units; of an eye, the pupil. A wide one blurs more and needs more points per pixel. 0 is a pinhole: everything is sharp.",
+            help: "The diameter of the lens, or of the pupil of an eye, in scene units. A wide lens blurs more and needs more points per pixel. 0 is a pinhole: everything is sharp.",
             shown: has_lens,
             widget: Widget::Slider(Slider {
                 range: lens_diameters,
@@ -88,8 +88,8 @@ pub(super) static LENS: &[Setting] = &[
         flag: "f-number",
         letter: None,
         value_name: "N",
-        help: "The same by its f-number, which is the film's distance behind the lens over the diameter; the film \
-               stands 12 mm / tan(vfov / 2) behind it",
+        help: "The f-number, which gives the lens diameter in another way: the distance of the film behind the lens \
+               divided by the diameter. That distance is 12 mm / tan(vfov / 2)",
         default: "",
         role: Role::Alias(&["lens-diameter"]),
         key: camera("f_number"),
@@ -103,7 +103,7 @@ pub(super) static LENS: &[Setting] = &[
         row: Some(Row {
             part: Part::Lens,
             label: "f-number",
-            help: "The lens diameter as photographers give it: the film's distance divided by the diameter. Each stop, a button here, halves the light.",
+            help: "The lens diameter as photographers give it: the distance of the film divided by the diameter. Each full stop has a button, and halves the light.",
             shown: has_lens,
             widget: Widget::Slider(Slider {
                 range: |_| [0.5, 128.0],
@@ -116,7 +116,7 @@ pub(super) static LENS: &[Setting] = &[
         flag: "focal-distance",
         letter: None,
         value_name: "L",
-        help: "Distance of the plane in focus, in scene units along the axis",
+        help: "The distance of the focal plane along the optical axis, in scene units",
         default: "the scene's",
         role: Role::Estimator,
         key: camera("focal_distance"),
@@ -124,7 +124,7 @@ pub(super) static LENS: &[Setting] = &[
         row: Some(Row {
             part: Part::Top,
             label: "Focal plane distance",
-            help: "How far away the plane lies in which everything is sharp, in scene units.",
+            help: "The distance of the plane in which everything is sharp, in scene units.",
             shown: has_lens,
             widget: Widget::Slider(Slider {
                 range: focal_distances,
@@ -137,7 +137,7 @@ pub(super) static LENS: &[Setting] = &[
         flag: "hole-diameter",
         letter: None,
         value_name: "L",
-        help: "Diameter of the hole, with --camera hole, in scene units",
+        help: "The diameter of the hole with --camera hole, in scene units",
         default: "the scene's, or 0.3 mm",
         role: Role::Estimator,
         key: Some(Key {
@@ -150,7 +150,7 @@ pub(super) static LENS: &[Setting] = &[
         row: Some(Row {
             part: Part::Top,
             label: "Hole diameter",
-            help: "How wide the hole is, in scene units. The picture of a far point is as wide.",
+            help: "The diameter of the hole, in scene units. On the film, a far point becomes a spot of the same diameter.",
             shown: has_hole,
             widget: Widget::Slider(Slider {
                 range: hole_diameters,
@@ -163,7 +163,7 @@ pub(super) static LENS: &[Setting] = &[
         flag: "upright",
         letter: None,
         value_name: "true|false",
-        help: "Turn the picture of a hole upright: on the film it is upside down",
+        help: "Whether the picture of a hole is turned upright. On the film it is upside down",
         default: "the scene's, or false",
         role: Role::Estimator,
         key: camera("upright"),
@@ -171,7 +171,7 @@ pub(super) static LENS: &[Setting] = &[
         row: Some(Row {
             part: Part::Top,
             label: "Upright",
-            help: "On the film the picture is upside down. This turns it, as you turn a slide.",
+            help: "On the film the picture is upside down. This turns it upright, as you turn a slide.",
             shown: has_hole,
             widget: Widget::Box,
         }),

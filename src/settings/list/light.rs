@@ -1,4 +1,4 @@
-//! How bright the picture is, and what is shown of it.
+//! The brightness of the picture, and overlays.
 
 use super::{EVEN, LOGARITHMIC, camera, field, row, view};
 use crate::scene::{EXPOSURES, ISOS, OVERLAYS, Overlay, SHUTTERS, TOLERANCES};
@@ -6,19 +6,20 @@ use crate::settings::setting::NONE;
 use crate::settings::{Access, Choice, Field, Part, Role, Setting, Slider, Widget, named};
 use std::borrow::Cow;
 
-/// What is typed into a slider is read by the first part of what it shows: a fraction would be read up to its bar.
+/// imgui reads a typed value by the first number of this format. So the seconds come first: a fraction would be read only
+/// up to its bar.
 fn shutter_time(seconds: f32) -> Cow<'static, str> {
     if seconds >= 0.5 { "%.3g s".into() } else { format!("%.3g s (1/{:.0})", seconds.recip()).into() }
 }
 
-/// How bright the picture is.
+/// The brightness of the picture.
 pub(super) static LIGHT: &[Setting] = &[
     Setting {
         flag: "shutter",
         letter: None,
         value_name: "SECONDS",
-        help: "How long the shutter is open, in seconds, as 0.01 or 1/100: longer is brighter, and what moves is \
-               blurred more",
+        help: "How long the shutter is open, in seconds, such as 0.01 or 1/100. A longer time gives a brighter picture, \
+               with more motion blur",
         default: "the scene's, or 1/60",
         role: Role::Estimator,
         key: camera("shutter"),
@@ -26,7 +27,7 @@ pub(super) static LIGHT: &[Setting] = &[
         row: row(
             Part::Light,
             "Shutter",
-            "How long light comes in, in seconds. Twice as long is twice as bright, and what moves is blurred along its way. The aperture is not the shutter: its blur comes of depth, not of motion.",
+            "How long the shutter is open, in seconds. Twice as long is twice as bright, and moving things are blurred along their paths. The aperture also blurs, but by depth and not by motion.",
             Widget::Slider(Slider { range: |_| [1.0 / 8000.0, 4.0], format: shutter_time, ..LOGARITHMIC }),
         ),
     },
@@ -34,7 +35,7 @@ pub(super) static LIGHT: &[Setting] = &[
         flag: "iso",
         letter: None,
         value_name: "ISO",
-        help: "The film's speed: higher is brighter",
+        help: "The speed of the film: a higher value gives a brighter picture",
         default: "the scene's, or 100",
         role: Role::View,
         key: camera("iso"),
@@ -42,7 +43,7 @@ pub(super) static LIGHT: &[Setting] = &[
         row: row(
             Part::Light,
             "ISO",
-            "The film's speed: twice as fast is twice as bright.",
+            "The speed of the film: twice the value is twice as bright.",
             Widget::Slider(Slider {
                 range: |_| [25.0, 25600.0],
                 format: |_| "ISO %.0f".into(),
@@ -54,8 +55,8 @@ pub(super) static LIGHT: &[Setting] = &[
         flag: "exposure-lock",
         letter: None,
         value_name: "true|false",
-        help: "Whether the brightness stays as the scene's lens makes it; else it changes with the area of the \
-               opening, as on film",
+        help: "Whether the brightness stays as it is with the scene's own lens. Otherwise it changes with the area of \
+               the aperture, as on film",
         default: "the scene's, or true",
         role: Role::View,
         key: view("exposure_lock"),
@@ -63,7 +64,7 @@ pub(super) static LIGHT: &[Setting] = &[
         row: row(
             Part::Light,
             "Keep the brightness",
-            "On: the picture stays as bright while the aperture changes. Off: it goes with the area of the opening, as on film: half with each stop, and less through blades than through a disc.",
+            "On: the picture keeps its brightness when the aperture changes. Off: the brightness is proportional to the area of the aperture, as on film. Each stop halves it, and blades let in less light than a disc.",
             Widget::Box,
         ),
     },
@@ -71,7 +72,7 @@ pub(super) static LIGHT: &[Setting] = &[
         flag: "exposure",
         letter: None,
         value_name: "STOPS",
-        help: "Brightness of a PNG or the window in stops: +1 doubles it, -1 halves it; an EXR stays as it is",
+        help: "The brightness of a PNG or of the window, in stops: +1 doubles it, -1 halves it. An EXR does not change",
         default: "the scene's, or 0",
         role: Role::View,
         key: view("exposure"),
@@ -79,19 +80,19 @@ pub(super) static LIGHT: &[Setting] = &[
         row: row(
             Part::Light,
             "Exposure",
-            "Brightness in stops: each doubles it. Changes only how the picture is shown.",
+            "The brightness in stops: each stop doubles it. This changes only how the picture is shown.",
             Widget::Slider(Slider { range: |_| [-5.0, 5.0], format: |_| "%+.2f stops".into(), ..EVEN }),
         ),
     },
 ];
 
-/// What is shown of it.
+/// Overlays, and what counts as sharp.
 pub(super) static VIEW: &[Setting] = &[
     Setting {
         flag: "overlay",
         letter: None,
         value_name: "",
-        help: "What to show, in a PNG or the window, instead of the picture or on it",
+        help: "What a PNG or the window shows instead of the picture, or on top of it",
         default: "the scene's, or none",
         role: Role::View,
         key: view("overlay"),
@@ -107,13 +108,13 @@ pub(super) static VIEW: &[Setting] = &[
                 [picture].into_iter().chain(overlays).collect()
             },
         ),
-        row: row(Part::View, "Show", "What is shown, instead of the picture or on it.", Widget::List),
+        row: row(Part::View, "Show", "What is shown instead of the picture, or on top of it.", Widget::List),
     },
     Setting {
         flag: "tolerance",
         letter: None,
         value_name: "PX",
-        help: "How wide a circle of confusion may be that counts as sharp, in pixels",
+        help: "The largest circle of confusion that counts as sharp, in pixels",
         default: "the scene's, or 1",
         role: Role::View,
         key: view("tolerance"),
@@ -121,7 +122,7 @@ pub(super) static VIEW: &[Setting] = &[
         row: row(
             Part::View,
             "Tolerance",
-            "How wide a circle of confusion may be that counts as sharp.",
+            "The largest circle of confusion that counts as sharp.",
             Widget::Slider(Slider { range: |_| [0.1, 30.0], format: |_| "%.2f px".into(), ..LOGARITHMIC }),
         ),
     },

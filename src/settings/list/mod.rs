@@ -1,5 +1,5 @@
-//! Every setting, once. The command line's options, what pictures and scene files carry, the ranges and the rows of the
-//! viewer's panel follow from this list.
+//! The list of all settings. It defines the options of the command line, what pictures and scene files store, the ranges,
+//! and the rows of the viewer's panel.
 
 mod aperture;
 mod camera;
@@ -11,14 +11,14 @@ use super::{Key, Part, Row, Setting, Slider, Widget};
 
 /// Settings that belong together.
 pub struct Group {
-    /// What they are about.
+    /// The subject of the settings.
     pub title: &'static str,
-    /// They, in the order of the list.
+    /// The settings, in the order of the list.
     pub settings: &'static [Setting],
 }
 
-/// The settings, in the order in which they are applied: those that change others come before them, so that a known
-/// lens can be given and changed at once.
+/// The settings, in the order in which they are applied. A setting that changes others comes before them, so that one
+/// command can choose a known lens and change it.
 pub static GROUPS: [Group; 7] = [
     Group { title: "Picture", settings: picture::PICTURE },
     Group { title: "Camera", settings: camera::CAMERA },
@@ -34,17 +34,17 @@ pub fn all() -> impl Iterator<Item = &'static Setting> {
     GROUPS.iter().flat_map(|group| group.settings)
 }
 
-/// Those that have a value of their own.
+/// The settings that have a value of their own.
 pub fn own() -> impl Iterator<Item = &'static Setting> {
     all().filter(|setting| !setting.is_alias())
 }
 
-/// The setting that has this flag, for those parts of the program that need a certain one.
+/// The setting with this flag, for parts of the program that need a certain setting.
 pub fn setting(flag: &str) -> &'static Setting {
     all().find(|setting| setting.flag == flag).expect("the list has what the program asks for")
 }
 
-/// A value that stands in a field of [`super::Settings`].
+/// The access to a field of [`super::Settings`].
 macro_rules! field {
     ($($path:ident).+) => {
         crate::settings::Field {
@@ -54,7 +54,7 @@ macro_rules! field {
     };
 }
 
-/// The access to a field whose values have names, among [`super::Sampler::NAMES`] and their like.
+/// The access to a field whose values have names, in a list such as [`super::Sampler::NAMES`].
 macro_rules! by_name {
     ($names:expr, $($path:ident).+) => {
         crate::settings::Field {
@@ -91,10 +91,10 @@ const fn row(part: Part, label: &'static str, help: &'static str, widget: Widget
     Some(Row { part, label, help, shown: |_| true, widget })
 }
 
-/// A slider whose equal ways are equal differences.
+/// A linear slider.
 const EVEN: Slider =
     Slider { range: |_| [0.0, 1.0], format: |_| "%.2f".into(), logarithmic: false, rounds: true };
 
-/// A slider over several orders of magnitude.
+/// A logarithmic slider, for several orders of magnitude.
 const LOGARITHMIC: Slider =
     Slider { range: |_| [0.01, 100.0], format: |_| "%.4g".into(), logarithmic: true, rounds: false };

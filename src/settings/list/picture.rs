@@ -1,4 +1,4 @@
-//! How large the picture is, and how it is sampled.
+//! The size of the picture, and how it is sampled.
 
 use super::{EVEN, LOGARITHMIC, by_name, field, row, top};
 use crate::scene::{MAX_BOUNCES, MAX_EXTENT};
@@ -7,16 +7,16 @@ use crate::settings::{
     name_of, named,
 };
 
-/// The slider of the points goes this far, or as far as was asked for.
+/// The slider for points per pixel ends here, or at the number that the viewer was started with.
 const MOST_POINTS: u32 = 4096;
 
-/// Its size, and how many samples it gets.
+/// The size of the picture, and the number of samples.
 pub(super) static PICTURE: &[Setting] = &[
     Setting {
         flag: "size",
         letter: Some('s'),
         value_name: "WxH",
-        help: "Picture size in pixels; the view keeps its height and gains or loses at the sides",
+        help: "The size of the picture in pixels. The view keeps its height, and gains or loses at the sides",
         default: "the scene's, in the viewer the window's",
         role: Role::Estimator,
         key: top("size"),
@@ -27,7 +27,7 @@ pub(super) static PICTURE: &[Setting] = &[
         flag: "samples",
         letter: Some('n'),
         value_name: "N",
-        help: "Antialiasing points per pixel: more for less noise",
+        help: "Antialiasing points per pixel: more points give less noise",
         default: "64, in the viewer 256",
         role: Role::Samples,
         key: None,
@@ -35,7 +35,7 @@ pub(super) static PICTURE: &[Setting] = &[
         row: row(
             Part::Points,
             "Anti-aliasing points per pixel",
-            "How many rays are averaged in each pixel: more give less noise. Raising it goes on from what is there.",
+            "The number of rays that are averaged in each pixel: more rays give less noise. If you raise it, the picture continues with the rays that it has.",
             Widget::Slider(Slider {
                 range: |initial| [1.0, MOST_POINTS.max(initial.samples) as f32],
                 format: |_| "%d".into(),
@@ -45,14 +45,14 @@ pub(super) static PICTURE: &[Setting] = &[
     },
 ];
 
-/// How the samples are chosen.
+/// How the picture is sampled.
 pub(super) static SAMPLING: &[Setting] = &[
     Setting {
         flag: "jitter",
         letter: None,
         value_name: "PX",
-        help: "Width of the square that a pixel's samples fall in: 1 is its own area, 0 one centre ray per pixel, \
-               more, up to 15, reaches into the neighbours",
+        help: "The width of the square around a pixel's centre that its samples fall in, in pixels. 1 is the area of \
+               the pixel, 0 gives one centre ray per pixel, and values up to 15 reach into the neighbours",
         default: "1",
         role: Role::Estimator,
         key: None,
@@ -60,7 +60,7 @@ pub(super) static SAMPLING: &[Setting] = &[
         row: row(
             Part::Sampling,
             "One centre ray per pixel",
-            "All rays of a pixel aim at one point in focus: edges in the focal plane turn jagged, blur stays.",
+            "All rays of a pixel pass through one point of the focal plane. Edges in that plane become jagged, and blur stays.",
             Widget::BoxOf { ticked: 0.0, plain: DEFAULT_JITTER },
         ),
     },
@@ -68,7 +68,7 @@ pub(super) static SAMPLING: &[Setting] = &[
         flag: "max-bounces",
         letter: None,
         value_name: "N",
-        help: "How many mirror reflections to follow, up to 64",
+        help: "The number of mirror reflections that are followed, up to 64",
         default: "the scene's",
         role: Role::Estimator,
         key: top("max_bounces"),
@@ -79,8 +79,8 @@ pub(super) static SAMPLING: &[Setting] = &[
         flag: "sampler",
         letter: None,
         value_name: "",
-        help: "How the points are chosen: sobol keeps a pixel's points apart, blue-noise also sets neighbouring \
-               pixels off against each other, random does neither",
+        help: "How the points are chosen. sobol spreads the points of a pixel evenly, blue-noise also makes the errors \
+               of neighbouring pixels cancel out, and random does neither",
         default: "blue-noise",
         role: Role::Estimator,
         key: None,
@@ -93,10 +93,10 @@ pub(super) static SAMPLING: &[Setting] = &[
         flag: "noise-threshold",
         letter: None,
         value_name: "E",
-        help: "Stops each pixel whose error is below this share of its brightness, 0.02 say, so that the work goes \
-               where the noise is; more than 0.2 counts as 0.2. Pixels that a lamp or mirror image may reach go on \
-               until they can lose 2% of their brightness at most by not having met it. --samples is then the most \
-               that a pixel gets",
+        help: "A pixel stops once its error is below this fraction of its brightness, for example 0.02, so that the work \
+               goes where the noise is. More than 0.2 counts as 0.2. A pixel that a lamp or a mirror image may reach \
+               continues until it can lose at most 2% of its brightness by having missed it. --samples is then the \
+               largest number of samples for a pixel",
         default: "0, none stops",
         role: Role::Estimator,
         key: None,
@@ -104,7 +104,7 @@ pub(super) static SAMPLING: &[Setting] = &[
         row: row(
             Part::Sampling,
             "Noise threshold",
-            "A pixel stops once its error is below this share of its brightness, and the work goes where the noise is. 0: none stops.",
+            "A pixel stops once its error is below this fraction of its brightness, so that the work goes where the noise is. At 0, no pixel stops.",
             Widget::Slider(Slider {
                 range: |_| [0.0, 0.2],
                 format: |share| if share > 0.0 { "%.3f".into() } else { "off".into() },
@@ -116,7 +116,7 @@ pub(super) static SAMPLING: &[Setting] = &[
         flag: "seed",
         letter: None,
         value_name: "N",
-        help: "Chooses other random points",
+        help: "A number that chooses other random points",
         default: "0",
         role: Role::Estimator,
         key: None,
