@@ -55,8 +55,8 @@ pub struct ImageSide {
     pub film_distance: f64,
     /// The sample point on the film: p'.
     pub p: DVec3,
-    /// Light from the visible point, through points on the vertical diameter of the lens, to the film. The lines start on
-    /// the lens. They cross where the sharp image of the point would be.
+    /// Light from the visible point, through points on the vertical diameter of the lens, to the film. The lines start
+    /// on the lens. They cross where the sharp image of the point would be.
     pub light_up: Vec<Line>,
     /// Light as in `light_up`, but through points on the horizontal diameter.
     pub light_across: Vec<Line>,

@@ -3,8 +3,8 @@
 use winit::error::EventLoopError;
 use winit::event_loop::EventLoop;
 
-/// Makes the event loop. In ssh, tmux and containers, the environment variables of Wayland can outlive the compositor. If
-/// no compositor responds, this uses X11, if there is one. winit looks at the variables alone, and refuses to make a
+/// Makes the event loop. In ssh, tmux and containers, the environment variables of Wayland can outlive the compositor.
+/// If no compositor responds, this uses X11, if there is one. winit looks at the variables alone, and refuses to make a
 /// second event loop after the first one has failed.
 pub(super) fn event_loop() -> Result<EventLoop<()>, EventLoopError> {
     let mut builder = EventLoop::builder();

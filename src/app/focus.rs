@@ -1,5 +1,5 @@
-//! Questions to the device about three pixels: the one under the pointer, the one whose optics are drawn, and the one to
-//! focus on. Also moves the focal plane to what was chosen.
+//! Questions to the device about three pixels: the one under the pointer, the one whose optics are drawn, and the one
+//! to focus on. Also moves the focal plane to what was chosen.
 
 use super::diagram::Diagram;
 use super::keys::Modifiers;
@@ -108,8 +108,8 @@ impl Focus {
         (self.wanted, self.glide) = (None, None);
     }
 
-    /// The next question to the device about this picture, if there is one. `rays` is the number of rays in the drawing of
-    /// the optics, if the drawing is open.
+    /// The next question to the device about this picture, if there is one. `rays` is the number of rays in the drawing
+    /// of the optics, if the drawing is open.
     pub(super) fn question(&mut self, estimator: &Estimator, rays: Option<u32>) -> Option<Question> {
         if self.asked.is_some() {
             return None;

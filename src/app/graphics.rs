@@ -18,8 +18,8 @@ use winit::window::Window;
 /// The answer to a question of [`Graphics::draw`]. It holds `None` if the scene has changed since the question.
 pub(super) struct Answer(pub(super) Option<Picked>);
 
-/// The order of the fields is the order in which they are dropped: imgui's renderer keeps raw handles of the device, and
-/// the surface must be dropped before the window.
+/// The order of the fields is the order in which they are dropped: imgui's renderer keeps raw handles of the device,
+/// and the surface must be dropped before the window.
 pub(super) struct Graphics {
     overlay: Option<imgui_rs_vulkan_renderer::Renderer>,
     swapchain: Option<Swapchain>,
@@ -198,8 +198,8 @@ impl Graphics {
         Ok(())
     }
 
-    /// Waits until the commands of the next frame are free, and collects what they measured. With `all`, waits for every
-    /// frame in flight, so that none delays the picture of the next input.
+    /// Waits until the commands of the next frame are free, and collects what they measured. With `all`, waits for
+    /// every frame in flight, so that none delays the picture of the next input.
     ///
     /// Returns the answer to the question of that frame, if it had one.
     pub(super) fn wait_for_frame(&mut self, all: bool) -> Result<Option<Answer>> {
@@ -228,8 +228,8 @@ impl Graphics {
     }
 
     /// Traces for as long as `pace` says, if it is given, and draws the picture and the panel to `image`. Call
-    /// [`Self::wait_for_frame`] first. The held picture is shown up to the column `split`. The answer to `question` comes
-    /// when the frame is done.
+    /// [`Self::wait_for_frame`] first. The held picture is shown up to the column `split`. The answer to `question`
+    /// comes when the frame is done.
     pub(super) fn draw(
         &mut self,
         image: &AcquiredImage,

@@ -25,8 +25,8 @@ const LIST: [(&str, &str); 18] = [
     ("?, F1", "this list"),
 ];
 
-/// The modifier keys. imgui knows only their state at the start of a frame. If Ctrl is released in the frame in which its
-/// letter is pressed, as happens when frames are slow, that state would miss it.
+/// The modifier keys. imgui knows only their state at the start of a frame. If Ctrl is released in the frame in which
+/// its letter is pressed, as happens when frames are slow, that state would miss it.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Modifiers {
     pub(super) ctrl: bool,

@@ -1,5 +1,5 @@
-//! A thread for slow work: it reads files, builds trees, uploads them and compiles passes, while the window continues with
-//! what it has.
+//! A thread for slow work: it reads files, builds trees, uploads them and compiles passes, while the window continues
+//! with what it has.
 
 use super::panel::Content;
 use crate::error::Result;
@@ -45,7 +45,8 @@ pub(super) enum Ready {
 }
 
 impl Loader {
-    /// Starts the thread. New parts share what they can with `prepared`. `waker` is notified whenever something is ready.
+    /// Starts the thread. New parts share what they can with `prepared`. `waker` is notified whenever something is
+    /// ready.
     pub(super) fn new(preparer: Arc<Preparer>, prepared: Prepared, waker: EventLoopProxy<()>) -> Self {
         let (requests, todo) = channel();
         let (done, answers) = channel();

@@ -51,8 +51,9 @@ impl FilmImages {
         self.key == FilmKey::new(estimator)
     }
 
-    /// Clears the tracing image if `traced` says so, so that nothing of the last picture is shown. That is not needed if it
-    /// is read only where it has been written since. The film need not be cleared: the first accumulation overwrites it.
+    /// Clears the tracing image if `traced` says so, so that nothing of the last picture is shown. That is not needed
+    /// if it is read only where it has been written since. The film need not be cleared: the first accumulation
+    /// overwrites it.
     pub(super) fn record_clear(&mut self, recording: &mut Recording<'_>, traced: bool) {
         if !self.have_layout {
             recording.clear(&self.film);

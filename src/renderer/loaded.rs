@@ -59,8 +59,8 @@ impl Loaded {
         Ok(Self { prepared, images, surfaces, passes })
     }
 
-    /// Uses these prepared parts from now on, and keeps the images if they fit the settings. After an error, everything is
-    /// as before.
+    /// Uses these prepared parts from now on, and keeps the images if they fit the settings. After an error, everything
+    /// is as before.
     pub(super) fn replace(
         &mut self,
         preparer: &Preparer,

@@ -1,7 +1,7 @@
 //! Owns the film, the scene on the device, and the passes. It knows of no window and no file.
 //!
-//! Work is recorded in tiles, so that the time of a submission is bounded. Batches are merged into the film once they are
-//! whole. The picture does not depend on the tiles: see [`schedule`]. Every `Result` can have the errors of
+//! Work is recorded in tiles, so that the time of a submission is bounded. Batches are merged into the film once they
+//! are whole. The picture does not depend on the tiles: see [`schedule`]. Every `Result` can have the errors of
 //! [`crate::vulkan`].
 //!
 //! [`Prepared`] holds the parts that settings need, and can be made on any thread. `Loaded` adds the images and the
@@ -116,8 +116,8 @@ impl Renderer {
         self.blue_first = blue_first;
     }
 
-    /// Sets what to render from now on. The film starts anew if the estimator has changed or the film has more samples than
-    /// wanted. After an error, everything is as before.
+    /// Sets what to render from now on. The film starts anew if the estimator has changed or the film has more samples
+    /// than wanted. After an error, everything is as before.
     ///
     /// # Errors
     /// [`crate::error::Error::OutOfRange`], [`crate::error::Error::Limit`], or those of
@@ -133,8 +133,8 @@ impl Renderer {
         self.load(settings, prepared)
     }
 
-    /// Works as [`Self::set`] does, but uses parts that were prepared for these settings, so it is fast. Parts that do not
-    /// fit the settings are made anew.
+    /// Works as [`Self::set`] does, but uses parts that were prepared for these settings, so it is fast. Parts that do
+    /// not fit the settings are made anew.
     ///
     /// # Errors
     /// As [`Self::set`].

@@ -14,7 +14,8 @@ use glam::{DVec3, Vec3};
 pub struct Question {
     /// The place, in pixels from the upper left corner of the picture.
     pub position: [f32; 2],
-    /// The number of rays in the fan on the vertical diameter of the lens, and in that on the horizontal one: at least two.
+    /// The number of rays in the fan on the vertical diameter of the lens, and in that on the horizontal one: at least
+    /// two.
     pub fan: u32,
     /// The number of first samples of the pixel whose rays are wanted.
     pub samples: u32,
@@ -89,9 +90,9 @@ impl Picked {
 }
 
 impl Renderer {
-    /// Records a question. A place outside the picture is moved to its edge, and at most as many rays are traced as [`Pick`]
-    /// has room for. [`Renderer::picked`] returns the answer once the commands of `frame` are done. Returns false, and
-    /// records nothing, if the renderer was not prepared for questions.
+    /// Records a question. A place outside the picture is moved to its edge, and at most as many rays are traced as
+    /// [`Pick`] has room for. [`Renderer::picked`] returns the answer once the commands of `frame` are done. Returns
+    /// false, and records nothing, if the renderer was not prepared for questions.
     pub fn record_pick(&mut self, recording: &mut Recording<'_>, frame: usize, question: Question) -> bool {
         self.record_aperture(recording);
         let Some(pick) = &mut self.loaded.passes.pick else {
@@ -117,8 +118,8 @@ impl Renderer {
         true
     }
 
-    /// The answer to the question of `frame`, whose commands must be done. `None` if the frame had no question, if the answer
-    /// was returned already, or if something else has been loaded since.
+    /// The answer to the question of `frame`, whose commands must be done. `None` if the frame had no question, if the
+    /// answer was returned already, or if something else has been loaded since.
     pub fn picked(&mut self, frame: usize) -> Option<Picked> {
         let (bindings, asked) = &mut self.loaded.passes.pick.as_mut()?.frames[frame];
         let Asked { question, camera } = asked.take()?;

@@ -60,7 +60,8 @@ pub struct Keys {
 #[derive(Clone, PartialEq)]
 struct SceneKey {
     scene: SceneRef,
-    /// How long the shutter is open, if anything moves: the boxes of the tree enclose all that a shape passes meanwhile.
+    /// How long the shutter is open, if anything moves: the boxes of the tree enclose all that a shape passes
+    /// meanwhile.
     shutter: Option<f32>,
 }
 
@@ -97,8 +98,8 @@ impl Preparer {
         })
     }
 
-    /// Makes the parts that these settings need, and shares those that `old` has already. `answers` says whether questions
-    /// will be asked.
+    /// Makes the parts that these settings need, and shares those that `old` has already. `answers` says whether
+    /// questions will be asked.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if the device cannot trace the scene, [`Error::Limit`], or those of

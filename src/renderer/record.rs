@@ -55,7 +55,8 @@ impl Renderer {
             if self.standing.list != list_before {
                 break;
             }
-            // The first tile is recorded whatever it costs. Another tile is not worth it for a small rest of the budget.
+            // The first tile is recorded whatever it costs. Another tile is not worth it for a small rest of the
+            // budget.
             if left <= budget / 8 && !(pace.preview && self.nothing_to_show()) {
                 break;
             }

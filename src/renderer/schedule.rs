@@ -13,8 +13,8 @@ pub const MAX_BATCH: u32 = 64;
 /// because every batch has a fixed cost.
 const FIRST_CUTS: [u32; 5] = [1, 4, 16, 32, MAX_BATCH];
 
-/// In an adaptive picture, active pixels are selected each time after this many samples per pixel, but for the first time
-/// after twice as many: fewer samples could all miss a small feature.
+/// In an adaptive picture, active pixels are selected each time after this many samples per pixel, but for the first
+/// time after twice as many: fewer samples could all miss a small feature.
 pub const SELECT_EVERY: u32 = 16;
 
 /// Whether active pixels are selected after this many samples.
@@ -37,15 +37,15 @@ pub fn listed_lattice(size: [u32; 2], at: [u32; 2]) -> Lattice {
     Lattice { extent: size, origin, stride: 0, first_row: 0, row_step: 1, row_count: 1 }
 }
 
-/// The largest batch, a power of two, whose loops take at most `most` steps, if each sample takes `steps`. `None` if one
-/// sample takes too many already.
+/// The largest batch, a power of two, whose loops take at most `most` steps, if each sample takes `steps`. `None` if
+/// one sample takes too many already.
 pub fn largest_batch(steps: u64, most: u64) -> Option<u32> {
     let most = u32::try_from(most / (steps + 1)).ok()?;
     most.checked_ilog2().map(|power| 1 << power)
 }
 
-/// The order in which the pixels of a cell of 4 x 4 pixels get their first sample in a preview. The first four are every
-/// second pixel on both axes.
+/// The order in which the pixels of a cell of 4 x 4 pixels get their first sample in a preview. The first four are
+/// every second pixel on both axes.
 const PHASES_OF_16: [[u32; 2]; 16] = [
     [2, 2],
     [0, 0],
@@ -100,8 +100,8 @@ pub struct Cursor {
     pub batch: Batch,
     /// The current stage of the batch.
     pub stage: Stage,
-    /// The column and row where the next tile starts: in the lattice while tracing, otherwise in the film. Once there is a
-    /// list of active pixels, in the list (see [`listed_size`]).
+    /// The column and row where the next tile starts: in the lattice while tracing, otherwise in the film. Once there
+    /// is a list of active pixels, in the list (see [`listed_size`]).
     pub at: [u32; 2],
 }
 
@@ -184,8 +184,8 @@ impl Batch {
     }
 }
 
-/// The step from one visited row of workgroups to the next, so that consecutive visits are spread over the whole picture.
-/// It is about the golden section of the number of rows, and has no divisor in common with it.
+/// The step from one visited row of workgroups to the next, so that consecutive visits are spread over the whole
+/// picture. It is about the golden section of the number of rows, and has no divisor in common with it.
 fn row_step(count: u32) -> u32 {
     let near = (0.618_034 * f64::from(count)).round() as u32;
     let common_divisor = |mut a: u32, mut b: u32| {
@@ -198,8 +198,8 @@ fn row_step(count: u32) -> u32 {
     around.into_iter().find(|step| *step > 0 && common_divisor(*step, count) == 1).unwrap_or(1)
 }
 
-/// The number of rows of pixels in a tile of `rows` rows that starts at the row `from` in the order of visits, in a lattice
-/// with `height` rows. The last row of workgroups may have fewer rows of pixels, whenever it is visited.
+/// The number of rows of pixels in a tile of `rows` rows that starts at the row `from` in the order of visits, in a
+/// lattice with `height` rows. The last row of workgroups may have fewer rows of pixels, whenever it is visited.
 pub fn rows_of_pixels(lattice: &Lattice, height: u32, from: u32, rows: u32) -> u32 {
     let visits = from / GROUP_SIZE..(from + rows).div_ceil(GROUP_SIZE).min(lattice.row_count);
     let missing = height.next_multiple_of(GROUP_SIZE) - height;
@@ -207,8 +207,8 @@ pub fn rows_of_pixels(lattice: &Lattice, height: u32, from: u32, rows: u32) -> u
     (visits.len() as u32 * GROUP_SIZE).saturating_sub(if shorter { missing } else { 0 })
 }
 
-/// The columns and rows of the tile that starts at `at`, in a lattice of `size`: as many whole rows as `pixels` allows, or
-/// else a part of a row of workgroups. Tiles are cut at multiples of the size of a workgroup, and have at least one
+/// The columns and rows of the tile that starts at `at`, in a lattice of `size`: as many whole rows as `pixels` allows,
+/// or else a part of a row of workgroups. Tiles are cut at multiples of the size of a workgroup, and have at least one
 /// workgroup.
 pub fn tile(size: [u32; 2], at: [u32; 2], pixels: u64) -> [u32; 2] {
     let whole = |count: u64| u32::try_from(count).unwrap_or(u32::MAX) / GROUP_SIZE * GROUP_SIZE;

@@ -7,8 +7,8 @@ use crate::vulkan::{Buffer, Device, FRAMES_IN_FLIGHT, Recording, Residence, Time
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// The assumed time of a unit of work until a submission has been measured, for scenes without and with a tree. It is long
-/// enough for a software device.
+/// The assumed time of a unit of work until a submission has been measured, for scenes without and with a tree. It is
+/// long enough for a software device.
 const UNMEASURED_NANOSECONDS: [f64; 2] = [50.0, 400.0];
 
 /// The speed of the device is the lowest of this many submissions: one submission may have covered an easy part of the
@@ -116,8 +116,8 @@ impl Tally {
         self.saw_rejected_samples = false;
     }
 
-    /// The amount of work that the device can do in this time, by the slowest of the last measurements. The unit is the cost
-    /// of tracing a sample.
+    /// The amount of work that the device can do in this time, by the slowest of the last measurements. The unit is the
+    /// cost of tracing a sample.
     pub(super) fn work_within(&self, budget: Duration) -> u64 {
         let worst = self.nanoseconds_per_unit.iter().copied().reduce(f64::max);
         (budget.as_nanos() as f64 / worst.unwrap_or(self.unmeasured)) as u64

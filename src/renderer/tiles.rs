@@ -33,7 +33,8 @@ impl Renderer {
         self.standing.cursor.unwrap_or_else(|| Cursor::start(self.next_batch(left, preview)))
     }
 
-    /// The tile that starts at a cursor, with about `left` units of work, or with the whole rest of the stage if `whole`.
+    /// The tile that starts at a cursor, with about `left` units of work, or with the whole rest of the stage if
+    /// `whole`.
     pub(super) fn tile(&self, cursor: Cursor, left: u64, whole: bool) -> Tile {
         let estimator = &self.settings.estimator;
         let Cursor { batch, stage, at } = cursor;

@@ -1,17 +1,17 @@
 //! The scenes that come with the program.
 
-/// A scene compiled in, in the format that users write.
+/// A scene that is compiled into the program, in the format of scene files.
 #[derive(Debug, Clone, Copy)]
 pub struct Builtin {
-    /// What it is called on the command line.
+    /// Its name on the command line.
     pub name: &'static str,
-    /// One line about it.
+    /// A description in one line.
     pub about: &'static str,
-    /// The file.
+    /// The text of the scene file.
     pub toml: &'static str,
 }
 
-/// All of them; the first is the default.
+/// All built-in scenes. The first one is the default.
 pub const BUILTINS: [Builtin; 4] = [
     Builtin {
         name: "version-4",

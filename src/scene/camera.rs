@@ -2,22 +2,22 @@
 
 use glam::{DMat3, DVec3};
 
-/// Where the picture is taken from. Lengths are in scene units.
+/// The position, the direction and the field of view of the camera. Lengths are in scene units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
-    /// The lens centre.
+    /// The centre of the lens.
     pub eye: DVec3,
     /// A point on the optical axis.
     pub look_at: DVec3,
-    /// Roughly upwards; not along the axis.
+    /// A direction that is roughly up. It must not be parallel to the optical axis.
     pub up: DVec3,
-    /// The angle from the picture's lower to its upper edge, seen from the eye.
+    /// The vertical field of view: the angle between the lower and the upper edge of the picture.
     pub vfov_radians: f64,
     /// The length in metres of one scene unit.
     pub metres_per_unit: f64,
 }
 
-/// What forms the picture.
+/// The model of the camera.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum CameraModel {
     /// A thin lens: [`Lens`].
@@ -35,41 +35,41 @@ impl CameraModel {
         [("thin-lens", Self::ThinLens), ("pinhole", Self::Pinhole), ("hole", Self::Hole)];
 }
 
-/// The thin lens: Suffern, chapter 10. Lengths are in scene units.
+/// A thin lens: Suffern, chapter 10. Lengths are in scene units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lens {
-    /// Diameter; 0 is a pinhole.
+    /// The diameter. 0 is a pinhole.
     pub diameter: f32,
-    /// Distance of the focal plane along the optical axis.
+    /// The distance of the focal plane along the optical axis.
     pub focal_distance: f32,
 }
 
 /// The hole of a physical pinhole camera. The film stands [`Camera::film_distance`] behind it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hole {
-    /// Diameter in scene units.
+    /// The diameter in scene units.
     pub diameter: f32,
-    /// Whether the picture is turned upright; on the film it is upside down.
+    /// Whether the picture is turned upright. On the film it is upside down.
     pub upright: bool,
 }
 
-/// The camera's right-handed orthonormal frame: u right, v up, and the view along -w.
+/// The right-handed orthonormal frame of the camera: u points right, v up, and the camera looks along -w.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
-    /// Columns u, v, w in world coordinates.
+    /// The columns are u, v and w in world coordinates.
     pub world_from_camera: DMat3,
 }
 
 impl Camera {
-    /// The camera's frame.
+    /// The frame of the camera.
     pub fn frame(&self) -> Frame {
         let w = (self.eye - self.look_at).normalize();
         let u = self.up.cross(w).normalize();
         Frame { world_from_camera: DMat3::from_cols(u, w.cross(u), w) }
     }
 
-    /// The same camera with its coordinates rounded to a millionth of the distance to what it looks at. More digits make
-    /// no difference that can be seen, and would only be long to read.
+    /// The same camera with its coordinates rounded to a millionth of the distance to what it looks at. More digits
+    /// make no difference that can be seen, and would only be long to read.
     #[must_use]
     pub fn with_few_digits(&self) -> Self {
         let decimals = 6 - self.eye.distance(self.look_at).log10().floor() as i32;
@@ -94,7 +94,7 @@ impl Camera {
         0.5 * f64::from(height) / (0.5 * self.vfov_radians).tan()
     }
 
-    /// Whether a frame can be made of it.
+    /// Whether the camera has a frame.
     pub fn has_frame(&self) -> bool {
         self.validate(["", "", ""]).is_ok()
     }
@@ -117,22 +117,22 @@ impl Camera {
 }
 
 impl Frame {
-    /// The depth of a point along the optical axis, in front of the eye.
+    /// The distance of a point from the eye, measured along the optical axis.
     pub fn axial_depth(&self, eye: DVec3, point: DVec3) -> f64 {
         -self.w().dot(point - eye)
     }
 
-    /// Right.
+    /// The unit vector to the right.
     pub fn u(&self) -> DVec3 {
         self.world_from_camera.x_axis
     }
 
-    /// Up.
+    /// The unit vector upwards.
     pub fn v(&self) -> DVec3 {
         self.world_from_camera.y_axis
     }
 
-    /// Backwards.
+    /// The unit vector backwards.
     pub fn w(&self) -> DVec3 {
         self.world_from_camera.z_axis
     }

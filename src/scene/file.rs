@@ -1,4 +1,4 @@
-//! From SCENE on the command line to a [`Scene`]: names, files, and errors with a line.
+//! Loads scenes by the name or the path that the command line calls SCENE.
 
 use super::mesh::Mesh;
 use super::toml::{self, error::ParseError, text};
@@ -7,21 +7,21 @@ use crate::error::{Error, Result};
 use crate::input_file;
 use std::path::{Path, PathBuf};
 
-/// The most bytes of a scene file. What is read from them takes some fifty times as many.
+/// The largest size of a scene file in bytes. Parsing takes about fifty times as much memory.
 const MOST_TEXT: u64 = 128 << 20;
 
-/// A scene, and its file.
+/// A scene and its file.
 pub struct Loaded {
     /// The scene.
     pub scene: Scene,
-    /// What the file says. That of a mesh is of the stage that is made around it.
+    /// The text of the scene file. For a mesh, it is the text of the scene that is made around the mesh.
     pub text: String,
-    /// Where the file sees others from.
+    /// The folder of the scene file, which paths in the file are relative to.
     pub folder: PathBuf,
 }
 
-/// Loads a built-in by its name, or a `.toml` scene or an `.obj` mesh by its path. A mesh is shown on a
-/// ground, framed, lit and focused on its nearest point.
+/// Loads a built-in scene by its name, or a `.toml` scene or an `.obj` mesh by its path. A mesh is shown on a ground,
+/// lit, framed, and with its nearest point in focus.
 ///
 /// # Errors
 /// [`Error::UnknownScene`] with near names, [`Error::Read`], [`Error::Scene`] with file and line, or
@@ -30,7 +30,7 @@ pub fn load(scene: impl AsRef<Path>) -> Result<Scene> {
     Ok(load_with_text(scene)?.scene)
 }
 
-/// Loads a scene as [`load`] does, and gives the text of its file too.
+/// Loads a scene as [`load`] does, and also returns the text of its file.
 ///
 /// # Errors
 /// As [`load`].

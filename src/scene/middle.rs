@@ -1,16 +1,17 @@
-//! Where the middle of a scene is.
+//! The middle of a scene, which is the origin of the coordinates on the device.
 
 use super::Scene;
 use glam::DVec3;
 
-/// Coordinates this many times as large as the scene lose three bits of their f32, and stay as they are.
+/// Coordinates up to this many times as large as the scene are not moved. They lose three bits of f32 at most.
 const LARGEST_SHARE: f64 = 8.0;
 
-/// A point near the middle of the shapes, from which their coordinates are about as small as their distances
-/// from each other. It is zero where they are so already, and rounded, so that numbers of few digits keep few.
+/// A point near the middle of the shapes. Relative to it, the coordinates of the shapes are about as small as their
+/// distances from each other. It is zero if they are that small already. It is rounded, so that numbers with few digits
+/// still have few digits after the subtraction.
 ///
-/// The middle is the median of the shapes' centres, so that few that are huge or far away, such as a sky or a
-/// sun, do not move it. Without any that has bounds, it is where the camera is.
+/// The middle is the median of the shapes' centres, so that a few shapes that are huge or far away, such as a sky or a
+/// sun, do not move it. If no shape has bounds, it is the position of the camera.
 pub(super) fn of(scene: &Scene) -> DVec3 {
     let bounds: Vec<[DVec3; 2]> = scene.shapes.iter().filter_map(|of| of.shape.bounds()).collect();
     let (middle, size) = if bounds.is_empty() {

@@ -1,4 +1,4 @@
-//! What is rendered, as plain values. Nothing here knows of a GPU.
+//! Scenes as plain values. This module does not know of a GPU.
 
 mod aperture;
 mod builtin;
@@ -46,63 +46,63 @@ pub const MAX_EXTENT: u32 = 16384;
 /// The largest number of reflections that can be followed.
 pub const MAX_BOUNCES: u32 = 64;
 
-/// The smallest length that divides others, in scene units: its inverse stays finite in f32.
+/// The smallest length that others are divided by, in scene units. Its inverse is finite in f32.
 pub const MIN_LENGTH: f32 = 1e-6;
-/// The largest length, colour or radiance: squares of cross products still fit in f32.
+/// The largest length, colour or radiance. Squares of cross products of such lengths still fit in f32.
 pub const MAX_LENGTH: f32 = 1e9;
 
-/// A scene: shapes, materials, lights, and the camera and picture size it was composed for.
+/// A scene: shapes, materials and lights, with a camera and a picture size.
 #[derive(Debug)]
 pub struct Scene {
-    /// The built-in's name, or the file's.
+    /// The name of the built-in scene or of the file.
     pub name: String,
-    /// The name that was given to [`load`]: a built-in's, or a path.
+    /// What was given to [`load`]: the name of a built-in scene, or a path.
     pub source: PathBuf,
-    /// The files that it was read from: its own, and those of its meshes.
+    /// The files that the scene was read from: its own file and those of its meshes.
     pub files: Vec<PathBuf>,
-    /// Where the picture is taken from.
+    /// The position and the field of view of the camera.
     pub camera: Camera,
-    /// What forms the picture.
+    /// The camera model.
     pub model: CameraModel,
     /// The thin lens.
     pub lens: Lens,
     /// The hole of a camera without a lens.
     pub hole: Hole,
-    /// The shape of the opening of the lens or the hole.
+    /// The shape of the aperture of the lens or of the hole.
     pub aperture: Aperture,
-    /// The picture's size in pixels, unless another is asked for.
+    /// The default size of the picture in pixels.
     pub size: [u32; 2],
     /// How long the shutter is open, in seconds.
     pub shutter: f32,
-    /// How it is shown at first. The brightness is given for the film's speed here, and for the lens and shutter
-    /// above.
+    /// How the picture is shown by default. The exposure is relative to the lens and the shutter above and to the speed
+    /// of the film given here.
     pub view: View,
-    /// How many reflections are followed, unless another number is asked for.
+    /// The default number of mirror reflections that are followed.
     pub max_bounces: u32,
-    /// What is seen where nothing is hit.
+    /// What is seen where a ray hits nothing.
     pub background: Background,
-    /// Radiance of the ambient light.
+    /// The radiance of the ambient light.
     pub ambient: Vec3,
-    /// Point and directional lights.
+    /// The point lights and directional lights.
     pub lights: Vec<Light>,
-    /// Materials, which shapes name by index.
+    /// The materials. Shapes refer to them by index.
     pub materials: Vec<Material>,
     /// The names of the materials.
     pub material_names: Vec<String>,
-    /// The shapes, of all kinds.
+    /// The shapes of all kinds.
     pub shapes: Vec<Shaded>,
 }
 
-/// How long the shutter is open, in seconds, unless the scene says otherwise.
+/// The default time that the shutter is open, in seconds.
 const DEFAULT_SHUTTER: f32 = 1.0 / 60.0;
 
 impl Scene {
-    /// Whether anything in it moves.
+    /// Whether anything in the scene moves.
     pub fn moves(&self) -> bool {
         self.shapes.iter().any(|of| of.velocity != Vec3::ZERO)
     }
 
-    /// The shapes of a kind, each with all that belongs to it.
+    /// The shapes of one kind, each with its material and its velocity.
     pub fn of_kind<'a, T: 'a>(&'a self) -> impl Iterator<Item = (&'a T, &'a Shaded)>
     where
         &'a T: TryFrom<&'a Shape>,
@@ -110,7 +110,7 @@ impl Scene {
         self.shapes.iter().filter_map(|of| Some((<&T>::try_from(&of.shape).ok()?, of)))
     }
 
-    /// Adds a material, and gives its index.
+    /// Adds a material and returns its index.
     fn add_material(&mut self, name: &str, material: Material) -> u32 {
         self.materials.push(material);
         self.material_names.push(name.to_owned());
@@ -118,7 +118,7 @@ impl Scene {
     }
 }
 
-/// A loaded scene, shared. Two are equal when they are the same loading, whatever they hold.
+/// A shared scene. Two are equal if they come from the same loading, whatever their contents.
 #[derive(Debug, Clone)]
 pub struct SceneRef(Arc<Shared>);
 
@@ -135,13 +135,13 @@ impl SceneRef {
         Self(Arc::new(Shared { scene, middle }))
     }
 
-    /// The origin of the coordinates that a device computes with. It lies near the middle of the scene, for
-    /// the f32 of a device keep few digits of what is far from their origin.
+    /// The origin of the coordinates that a device computes with. It is near the middle of the scene, because f32 has
+    /// few digits for points that are far from the origin.
     pub fn middle(&self) -> DVec3 {
         self.0.middle
     }
 
-    /// A point in a device's coordinates.
+    /// A point in the coordinates of a device.
     pub fn on_device(&self, point: DVec3) -> Vec3 {
         (point - self.middle()).as_vec3()
     }

@@ -1,9 +1,9 @@
-//! What can be shown instead of the picture, or on it. An overlay is a name in `overlay` of `src/interface.rs`, an
-//! entry of [`OVERLAYS`], and a case in `shaders/core/overlay.glsl`.
+//! Overlays: what can be shown instead of the picture, or on top of it. An overlay is a name in `overlay` of
+//! `src/interface.rs`, an entry of [`OVERLAYS`], and a case in `shaders/core/overlay.glsl`.
 
 use crate::interface::{BEHIND, IN_FRONT, MARK, SLICE, overlay};
 
-/// An overlay, by the code that the shaders know it by.
+/// An overlay, by its number in the shaders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u32)]
 #[allow(missing_docs, reason = "the help of each is in its entry")]
@@ -17,43 +17,43 @@ pub enum Overlay {
     Error = overlay::ERROR,
 }
 
-/// Everything that the program says of an overlay.
+/// The description of an overlay.
 #[derive(Debug)]
 pub struct Entry {
-    /// Which one it is.
+    /// The overlay.
     pub overlay: Overlay,
-    /// What it is called on the command line and in scene files.
+    /// The name on the command line and in scene files.
     pub name: &'static str,
-    /// What it is called in the viewer.
+    /// The name in the viewer.
     pub label: &'static str,
-    /// One sentence or two about what it shows.
+    /// A short text about what it shows.
     pub help: &'static str,
-    /// What it is computed from.
+    /// The data that it is computed from.
     pub source: Source,
-    /// Where its scale ends.
+    /// The end of its scale.
     pub full_scale: FullScale,
-    /// The colours of its legend at equal distances from left to right, linear.
+    /// The linear colours of its legend, at equal distances from left to right.
     pub colors: &'static [[f32; 3]],
-    /// What stands below the legend on the left, in the middle and on the right, from the end of the scale and the
+    /// The labels below the legend on the left, in the middle and on the right, given the end of the scale and the
     /// focal distance.
     pub labels: fn(f32, f32) -> [String; 3],
 }
 
-/// What an overlay is computed from.
+/// The data that an overlay is computed from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Source {
-    /// The means and counts of the film.
+    /// The means and the counts in the film.
     Film,
-    /// The second moments of the film, which it must have had from its start.
+    /// The second moments in the film, which must have been kept from the start of the picture.
     Moments,
-    /// What each pixel's middle sees through the centre of the lens.
+    /// The surface that the middle of each pixel sees through the centre of the lens.
     Surface,
 }
 
-/// Where the scale of an overlay ends.
+/// The end of the scale of an overlay.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FullScale {
-    /// The scale ends at the number of samples that is wanted.
+    /// The scale ends at the wanted number of samples.
     Samples,
     /// The scale ends at this number.
     Number(f32),
@@ -102,7 +102,7 @@ pub const OVERLAYS: [Entry; 7] = [
         help: "The distance along the axis: white at the lens, grey in the focal plane, black far away.",
         source: Source::Surface,
         full_scale: FullScale::Number(1.0),
-        // Even steps of the share F / (F + depth).
+        // The labels are at equal steps of F / (F + depth).
         colors: &[[1.0; 3], [0.75; 3], [0.5; 3], [0.25; 3], [0.0; 3]],
         labels: |_, distance| labels("lens", &format!("{distance:.4}"), "far away"),
     },
@@ -113,7 +113,7 @@ pub const OVERLAYS: [Entry; 7] = [
         help: "Which way surfaces face: the more red to the right, the more green upwards, and blue to the lens.",
         source: Source::Surface,
         full_scale: FullScale::Number(1.0),
-        // From left over the lens to the right, along the horizontal.
+        // The colours are those of horizontal normals, from left through the direction of the lens to right.
         colors: &[
             [0.0, 0.5, 0.5],
             [0.146, 0.5, 0.854],
@@ -161,13 +161,13 @@ impl Overlay {
         names
     };
 
-    /// What the program says of it.
+    /// The description of the overlay.
     pub fn entry(self) -> &'static Entry {
         static ENTRIES: &[Entry] = &OVERLAYS;
         ENTRIES.iter().find(|entry| entry.overlay == self).expect("every overlay has an entry: a test looks")
     }
 
-    /// Whether it needs what each pixel's middle sees.
+    /// Whether it shows the surface that the middle of each pixel sees.
     pub fn shows_surface(self) -> bool {
         self.entry().source == Source::Surface
     }

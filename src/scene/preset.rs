@@ -1,15 +1,15 @@
-//! Lenses that people know.
+//! Presets: well-known lenses.
 
 use super::{Camera, CameraModel, Lens, vfov_of_focal_length};
 
-/// A lens, by its name.
+/// A well-known lens.
 #[derive(Debug, Clone, Copy)]
 pub struct Preset {
     /// Its name on the command line.
     pub name: &'static str,
     /// Its name in the panel.
     pub label: &'static str,
-    /// What it shows, in plain words.
+    /// A description in plain words.
     pub help: &'static str,
     effect: Effect,
 }
@@ -22,7 +22,7 @@ enum Effect {
         focal_length_mm: f64,
         f_number: f64,
     },
-    /// The pupil of an eye. The field of view stays as it is, for that of an eye depends on what it looks at.
+    /// The pupil of an eye. The field of view stays as it is, because that of an eye depends on what it looks at.
     Pupil {
         diameter_mm: f64,
     },
@@ -68,7 +68,7 @@ impl Preset {
         PRESETS.iter().find(|preset| preset.name == name)
     }
 
-    /// Puts the lens in front of the camera. What is in focus stays in focus.
+    /// Puts the lens on the camera. What is in focus stays in focus.
     pub fn apply(&self, camera: &mut Camera, model: &mut CameraModel, lens: &mut Lens) {
         *model = CameraModel::ThinLens;
         match self.effect {

@@ -1,40 +1,40 @@
-//! Ranges that numbers have to lie in, whether a scene file, an option or a slider gives them: lowest and highest.
+//! The ranges of numbers in scene files, options and sliders: the lowest and the highest value of each.
 
 use super::{MAX_LENGTH, MIN_LENGTH};
 use std::fmt::{Display, LowerExp};
 
-/// Of the parts of a place.
+/// The coordinates of a position.
 pub const PLACES: [f64; 2] = [-(MAX_LENGTH as f64), MAX_LENGTH as f64];
-/// Of the vertical field of view, in degrees.
+/// The vertical field of view, in degrees.
 pub const VFOV_DEGREES: [f64; 2] = [0.01, 175.0];
-/// Of a scene unit, in metres.
+/// The length of a scene unit, in metres.
 pub const METRES_PER_UNIT: [f64; 2] = [1e-15, 1e15];
-/// Of the diameter of a lens or a hole, in scene units.
+/// The diameter of a lens or a hole, in scene units.
 pub const DIAMETERS: [f32; 2] = [0.0, MAX_LENGTH];
-/// Of the f-number.
+/// The f-number.
 pub const F_NUMBERS: [f64; 2] = [0.01, 1e6];
-/// Of the focal distance, in scene units.
+/// The focal distance, in scene units.
 pub const FOCAL_DISTANCES: [f32; 2] = [MIN_LENGTH, MAX_LENGTH];
-/// Of the number of blades that an iris has.
+/// The number of blades of an iris.
 pub const BLADES: [u32; 2] = [3, 16];
-/// Of how far an iris is turned, in degrees.
+/// The angle by which an iris is turned, in degrees.
 pub const ROTATIONS: [f32; 2] = [-360.0, 360.0];
-/// Of how far its blades are bent.
+/// The curvature of the blades' edges.
 pub const ROUNDNESSES: [f32; 2] = [0.0, 1.0];
-/// Of how often an opening's width goes into its height.
+/// The height of an aperture divided by its width.
 pub const ANAMORPHICS: [f32; 2] = [0.1, 10.0];
-/// Of how far the front rim is off the lens's centre, in diameters.
+/// The displacement of the front rim of the lens, in diameters.
 pub const CATS_EYES: [f32; 2] = [0.0, 1.0];
-/// Of the time that the shutter is open, in seconds.
+/// The time that the shutter is open, in seconds.
 pub const SHUTTERS: [f32; 2] = [1e-6, 1e4];
-/// Of the film's speed.
+/// The speed of the film.
 pub const ISOS: [f32; 2] = [0.1, 1e7];
-/// Of the exposure, in stops.
+/// The exposure, in stops.
 pub const EXPOSURES: [f32; 2] = [-20.0, 20.0];
-/// Of the circle of confusion that counts as sharp, in pixels.
+/// The largest circle of confusion that counts as sharp, in pixels.
 pub const TOLERANCES: [f32; 2] = [0.01, 1000.0];
 
-/// Holds a number against a range. NaN is in no range.
+/// Checks that a number is in a range. NaN is in no range.
 ///
 /// # Errors
 /// What is wrong, as the end of a sentence that begins with what the user calls the number.
@@ -60,7 +60,7 @@ pub fn in_range_or_zero(value: u32, range: [u32; 2], zero: &str) -> Result<(), S
     in_range(value, range).map_err(|wrong| format!("{wrong}, or 0 for {zero}"))
 }
 
-/// A number without a row of zeros.
+/// A number as text, without a row of zeros.
 fn short(number: impl Display + LowerExp) -> String {
     let (plain, power) = (number.to_string(), format!("{number:e}"));
     if plain.len() > 6 && power.len() < plain.len() { power } else { plain }

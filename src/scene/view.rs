@@ -2,21 +2,21 @@
 
 use super::Overlay;
 
-/// The film's speed, unless the scene says otherwise.
+/// The default speed of the film.
 const DEFAULT_ISO: f32 = 100.0;
 
-/// Whatever changes only how the film is shown.
+/// The settings that change only how the film is shown.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
-    /// Brightness, in stops: the picture is multiplied by two to this power.
+    /// The exposure in stops: the picture is multiplied by two to this power.
     pub exposure_stops: f32,
-    /// The film's speed: twice as fast is twice as bright.
+    /// The speed of the film: twice the value is twice as bright.
     pub iso: f32,
-    /// Whether the brightness stays when the aperture changes.
+    /// Whether the brightness stays the same when the aperture changes.
     pub exposure_lock: bool,
-    /// What is shown instead of the picture, or on it, if anything.
+    /// The overlay, if one is shown.
     pub overlay: Option<Overlay>,
-    /// How wide a circle of confusion may be that counts as sharp, in pixels.
+    /// The largest circle of confusion that counts as sharp, in pixels.
     pub tolerance: f32,
 }
 

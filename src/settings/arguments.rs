@@ -1,5 +1,5 @@
-//! Converts settings to the arguments of a command line that renders them, and back. Users copy them, and saved pictures
-//! store them.
+//! Converts settings to the arguments of a command line that renders them, and back. Users copy them, and saved
+//! pictures store them.
 
 use super::setting::NONE;
 use super::{Changes, Settings, Value, list};
@@ -10,8 +10,8 @@ use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 impl Settings {
-    /// The arguments after `thinlens render`, without `-o`, that render this picture again: the name of the scene, the size,
-    /// the samples, and every setting that differs from the scene's.
+    /// The arguments after `thinlens render`, without `-o`, that render this picture again: the name of the scene, the
+    /// size, the samples, and every setting that differs from the scene's.
     pub fn arguments(&self) -> Vec<OsString> {
         self.arguments_with(Path::to_path_buf)
     }

@@ -1,4 +1,5 @@
-//! Everything that a user can set. [`Estimator`] has the settings whose change starts the film anew, and [`View`] the others.
+//! Everything that a user can set. [`Estimator`] has the settings whose change starts the film anew, and [`View`] the
+//! others.
 
 mod arguments;
 pub mod list;
@@ -23,7 +24,8 @@ use std::path::Path;
 
 /// The film stores counts in f32, which is exact up to this number.
 pub const MAX_SAMPLES: u32 = 1 << 24;
-/// The smallest and the largest jitter, in pixels. Accumulation reads `ceil(jitter / 2 - 1 / 2)` pixels in each direction.
+/// The smallest and the largest jitter, in pixels. Accumulation reads `ceil(jitter / 2 - 1 / 2)` pixels in each
+/// direction.
 pub const JITTERS: [f32; 2] = [0.0, 15.0];
 /// The default number of samples per pixel without a window.
 pub const DEFAULT_SAMPLES: u32 = 64;
@@ -86,9 +88,10 @@ pub struct Estimator {
     pub sampler: Sampler,
     /// The seed of the sample values.
     pub seed: u32,
-    /// The threshold of adaptive sampling; 0 turns it off. A pixel stops when two relative errors are below the threshold in
-    /// the pixel and in all its neighbours: the standard error of the mean luminance, and the possible loss by things that
-    /// no sample has hit. Both are relative to the mean luminance, but at least to 0.05. See `shaders/core/adaptive.glsl`.
+    /// The threshold of adaptive sampling; 0 turns it off. A pixel stops when two relative errors are below the
+    /// threshold in the pixel and in all its neighbours: the standard error of the mean luminance, and the possible
+    /// loss by things that no sample has hit. Both are relative to the mean luminance, but at least to 0.05. See
+    /// `shaders/core/adaptive.glsl`.
     pub noise_threshold: f32,
     /// Whether the film keeps second moments, so that its error can be shown. Adaptive films always do.
     pub keeps_moments: bool,
@@ -110,8 +113,8 @@ impl Estimator {
         self.camera.f_number(self.lens.diameter)
     }
 
-    /// A warning if f32 is too coarse for this picture. Devices compute with f32 from the middle of the scene, and its steps
-    /// are visible if they are larger than a quarter of a pixel.
+    /// A warning if f32 is too coarse for this picture. Devices compute with f32 from the middle of the scene, and its
+    /// steps are visible if they are larger than a quarter of a pixel.
     pub fn too_coarse(&self) -> Option<String> {
         let camera = &self.camera;
         let from_middle = camera.eye.distance(self.scene.middle());
@@ -146,14 +149,14 @@ impl Estimator {
 pub enum Sampler {
     /// Independent random numbers. The error falls with the square root of the number of samples.
     Random,
-    /// The Owen-scrambled Sobol sequence in four dimensions, for film and lens together. The samples of a pixel are spread
-    /// evenly on both. B. Burley, JCGT 9(4), 2020.
+    /// The Owen-scrambled Sobol sequence in four dimensions, for film and lens together. The samples of a pixel are
+    /// spread evenly on both. B. Burley, JCGT 9(4), 2020.
     Sobol,
-    /// The Sobol sequence, arranged so that the errors of neighbouring pixels are opposed and the eye averages them. The effect
-    /// is strongest with the first samples, and still there with 16. The samples are arranged as in E. Heitz, L. Belcour,
-    /// V. Ostromoukhov, D. Coeurjolly and J.-C. Iehl, "A Low-Discrepancy Sampler that Distributes Monte Carlo Errors as a Blue Noise in Screen
-    /// Space", SIGGRAPH Talks 2019, but with masks on one sequence: I. Georgiev and M. Fajardo, "Blue-noise
-    /// Dithered Sampling", SIGGRAPH Talks 2016.
+    /// The Sobol sequence, arranged so that the errors of neighbouring pixels are opposed and the eye averages them.
+    /// The effect is strongest with the first samples, and still there with 16. The samples are arranged as in E.
+    /// Heitz, L. Belcour, V. Ostromoukhov, D. Coeurjolly and J.-C. Iehl, "A Low-Discrepancy Sampler that Distributes
+    /// Monte Carlo Errors as a Blue Noise in Screen Space", SIGGRAPH Talks 2019, but with masks on one sequence: I.
+    /// Georgiev and M. Fajardo, "Blue-noise Dithered Sampling", SIGGRAPH Talks 2016.
     #[default]
     BlueNoise,
 }
@@ -208,8 +211,8 @@ impl Settings {
         settings
     }
 
-    /// The settings for another scene. The size and everything about sampling stay as they are, and so does an overlay if
-    /// the scene has none of its own.
+    /// The settings for another scene. The size and everything about sampling stay as they are, and so does an overlay
+    /// if the scene has none of its own.
     #[must_use]
     pub fn with_scene(&self, scene: SceneRef) -> Self {
         let mut settings = Self::of_scene(scene);
@@ -240,10 +243,10 @@ impl Settings {
         }
     }
 
-    /// The brightness of the picture relative to the scene with its own lens, shutter and film. It is proportional to the
-    /// shutter time and to the speed of the film. Unless the exposure is locked, it is also proportional to the inverse
-    /// square of the f-number and to the fraction of a disc that the aperture leaves open. A pinhole would let in no light,
-    /// so it is treated as if the exposure were locked.
+    /// The brightness of the picture relative to the scene with its own lens, shutter and film. It is proportional to
+    /// the shutter time and to the speed of the film. Unless the exposure is locked, it is also proportional to the
+    /// inverse square of the f-number and to the fraction of a disc that the aperture leaves open. A pinhole would let
+    /// in no light, so it is treated as if the exposure were locked.
     pub fn exposure(&self) -> f32 {
         let (estimator, scene) = (&self.estimator, &*self.estimator.scene);
         let mut light =
@@ -296,8 +299,8 @@ impl Settings {
             .or_else(|reason| out_of_range(format!("the camera has no view: {reason}")))?;
         let [blades, cats_eye, image] = &names(["blades", "cats-eye", "aperture-image"]);
         aperture.validate([blades, cats_eye, image]).or_else(out_of_range)?;
-        // With a wide jitter, chance may land more samples than this in a pixel. 2^16 is 16 standard deviations, which never
-        // happens.
+        // With a wide jitter, chance may land more samples than this in a pixel. 2^16 is 16 standard deviations, which
+        // never happens.
         let most = if *jitter > DEFAULT_JITTER { MAX_SAMPLES - (1 << 16) } else { MAX_SAMPLES };
         let samples = || list::setting("samples").name(called);
         in_range(self.samples, [1, most]).or_else(|reason| out_of_range(format!("{} {reason}", samples())))

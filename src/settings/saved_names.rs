@@ -1,5 +1,5 @@
-//! File names in JSON, for `#[serde(with = ...)]`. A name that is text is a string. Systems also allow names that are not
-//! text. Such a name is an object with its bytes, `{"Unix": [99, 97, 102, 233]}`, so that no name is lost.
+//! File names in JSON, for `#[serde(with = ...)]`. A name that is text is a string. Systems also allow names that are
+//! not text. Such a name is an object with its bytes, `{"Unix": [99, 97, 102, 233]}`, so that no name is lost.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::ffi::{OsStr, OsString};

@@ -9,9 +9,9 @@ use std::path::{Path, PathBuf};
 use toml_edit::{Array, DocumentMut, Item, TableLike, value};
 
 impl Settings {
-    /// The text of a scene file in this folder that gives this picture, except for how it is sampled. Everything else in the
-    /// scene's own file stays, including comments. If lens or shutter have changed the brightness, `exposure` makes up for
-    /// it, because the brightness of a scene is relative to its own lens and shutter.
+    /// The text of a scene file in this folder that gives this picture, except for how it is sampled. Everything else
+    /// in the scene's own file stays, including comments. If lens or shutter have changed the brightness, `exposure`
+    /// makes up for it, because the brightness of a scene is relative to its own lens and shutter.
     ///
     /// # Errors
     /// Errors of reading the scene's own file, which may have changed since it was loaded.
@@ -61,8 +61,8 @@ impl Settings {
         Ok(document.to_string())
     }
 
-    /// The same picture, with all of its brightness in `exposure`: the brightness of a scene is relative to its own lens and
-    /// shutter.
+    /// The same picture, with all of its brightness in `exposure`: the brightness of a scene is relative to its own
+    /// lens and shutter.
     fn with_whole_exposure(&self) -> Result<Self> {
         let mut saved = self.clone();
         let brightness = self.exposure();
@@ -75,8 +75,8 @@ impl Settings {
     }
 }
 
-/// Removes the keys that stand for several settings, such as a known lens, and returns the flags of these settings, to be
-/// written one by one, because any of them may have changed.
+/// Removes the keys that stand for several settings, such as a known lens, and returns the flags of these settings, to
+/// be written one by one, because any of them may have changed.
 fn take_apart(document: &mut DocumentMut) -> Vec<&'static str> {
     let mut apart = Vec::new();
     for alias in list::all() {

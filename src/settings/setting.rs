@@ -21,8 +21,8 @@ pub struct Setting {
     pub default: &'static str,
     /// What a change of the setting affects.
     pub role: Role,
-    /// Its key in a scene file. A setting without a key says how a scene is sampled: scene files do not store it, and it stays
-    /// as it is when another scene is opened.
+    /// Its key in a scene file. A setting without a key says how a scene is sampled: scene files do not store it, and
+    /// it stays as it is when another scene is opened.
     pub key: Option<Key>,
     /// How to read and write its value, and the range of the value.
     pub access: Access,
@@ -39,8 +39,8 @@ pub enum Role {
     View,
     /// The number of samples in the film.
     Samples,
-    /// The settings with these flags. An alias is another way to give them and has no value of its own. An alias for a single
-    /// setting cannot be given together with that setting.
+    /// The settings with these flags. An alias is another way to give them and has no value of its own. An alias for a
+    /// single setting cannot be given together with that setting.
     Alias(&'static [&'static str]),
 }
 

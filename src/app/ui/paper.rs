@@ -60,8 +60,8 @@ impl<'a> Paper<'a> {
         Self { list, min, max, side: View::Side, middle: [0.0; 2], scale: [1.0; 2] }
     }
 
-    /// Shows these bounds in the rectangle, as large as possible. Stretches the height by up to `stretch`, as far as there
-    /// is room.
+    /// Shows these bounds in the rectangle, as large as possible. Stretches the height by up to `stretch`, as far as
+    /// there is room.
     pub(super) fn fit(&mut self, bounds: [[f64; 2]; 2], stretch: f64, side: View) {
         let [width, height] = [0, 1].map(|axis| self.max[axis] - self.min[axis]);
         let room = [width, (height - HEAD - FOOT).max(1.0)].map(f64::from);

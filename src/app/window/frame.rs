@@ -36,8 +36,8 @@ impl OpenWindow {
         Ok(())
     }
 
-    /// Collects the results of earlier frames, and returns the image to draw to and its size. `None` if there is no image
-    /// to draw to at the moment.
+    /// Collects the results of earlier frames, and returns the image to draw to and its size. `None` if there is no
+    /// image to draw to at the moment.
     fn begin_frame(&mut self) -> Result<Option<(AcquiredImage, [u32; 2])>> {
         let size = self.window.inner_size();
         let Some(size) = self.graphics.fit([size.width, size.height], &mut self.imgui)? else {

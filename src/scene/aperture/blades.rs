@@ -3,19 +3,19 @@
 use super::Kind;
 use std::f64::consts::PI;
 
-/// An iris of blades, whose corners lie on the rim of the opening. See [`super::Aperture`] for its numbers.
+/// An iris of blades, whose corners lie on the rim of the aperture. [`super::Aperture`] describes the numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Blades {
-    /// How many there are.
+    /// The number of blades.
     pub count: u32,
-    /// How far the iris is turned.
+    /// The angle by which the iris is turned, in degrees.
     pub rotation_degrees: f32,
-    /// How far their edges are bent out.
+    /// The curvature of the blades' edges.
     pub roundness: f32,
 }
 
 impl Blades {
-    /// Half the angle that a blade takes.
+    /// Half the angle that a blade spans.
     pub fn half_angle(&self) -> f64 {
         PI / f64::from(self.count)
     }
@@ -24,7 +24,7 @@ impl Blades {
 impl Kind for Blades {
     fn open_share(&self) -> f64 {
         let (half, round) = (self.half_angle(), f64::from(self.roundness));
-        // Twice the area of half a blade's part: of a triangle, and of a sector of the disc.
+        // Twice the area of half a blade: of the triangle for a straight edge, and of the sector of the disc.
         ((1.0 - round) * half.sin() * half.cos() + round * half) / half
     }
 }

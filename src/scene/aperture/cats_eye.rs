@@ -2,10 +2,10 @@
 
 use super::Kind;
 
-/// The overlap of the lens's disc and its front rim, as far as it is off the disc's middle in the corner of the picture.
+/// The overlap of the disc of the lens with the disc of its front rim, which appears displaced off the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CatsEye {
-    /// In diameters. Halfway to the corner it is half as much.
+    /// The displacement in a corner of the picture, in diameters. It is proportional to the distance from the middle.
     pub in_corner: f32,
 }
 

@@ -1,4 +1,5 @@
-//! An image of where light comes in, read from a PNG row by row, so that a large one costs little memory.
+//! An image that gives the shape of the aperture. It is read from a PNG row by row, so that a large file needs little
+//! memory.
 
 use super::Kind;
 use crate::error::{Error, Result};
@@ -10,25 +11,25 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Images are reduced to as many cells across at most.
+/// Images are reduced to at most this many cells on the longer side.
 const MOST_CELLS: u32 = 256;
-/// What helps against damage.
+/// The advice for a damaged file.
 const ANEW: &str = "save the image anew as a PNG";
-/// The light of a pixel that is white and opaque: a sum of three colours of 255, times 255.
+/// The value of a white, opaque pixel: the sum of three colours of 255, times an opacity of 255.
 const WHITE: u64 = 3 * 255 * 255;
 
-/// Where light comes in, as an image: shared, and equal where it is the same loading.
+/// A shared image of the aperture. Two are equal if they come from the same loading.
 #[derive(Clone)]
 pub struct ApertureImage(Arc<Mask>);
 
-/// Cells, row by row from the upper left as seen from behind the camera, and how much light each lets in.
-/// The longer side is the opening's diameter.
+/// The amount of light that each cell lets in, row by row from the upper left as seen from behind the camera. The
+/// longer side is the diameter of the aperture.
 pub struct Mask {
-    /// Columns and rows.
+    /// The number of columns and rows.
     pub size: [u32; 2],
-    /// Not negative, and not all zero.
+    /// The light of each cell: not negative, and not zero in all cells.
     pub cells: Vec<f32>,
-    /// The file it is from.
+    /// The file that it was read from.
     pub file: PathBuf,
 }
 
@@ -61,10 +62,10 @@ impl Kind for ApertureImage {
 }
 
 impl ApertureImage {
-    /// Reads a PNG: its brightness, times its opacity, is how much light comes in there.
+    /// Reads a PNG. The light that a pixel lets in is its brightness times its opacity.
     ///
     /// # Errors
-    /// [`Error::Read`], or [`Error::ApertureImage`] for what is no PNG, too large, or lets no light in.
+    /// [`Error::Read`], or [`Error::ApertureImage`] for a file that is not a PNG, is too large, or lets in no light.
     pub fn read(path: &Path) -> Result<Self> {
         let error = |message: String| Error::ApertureImage { file: path.display().to_string(), message };
         let mut file = input_file::open(path)?;
@@ -84,7 +85,8 @@ impl ApertureImage {
     }
 }
 
-/// Columns and rows, and means over as many pixels as make at most [`MOST_CELLS`] cells across.
+/// The number of columns and rows, and the cells. Each is the mean of a square of pixels, so large that there are at
+/// most [`MOST_CELLS`] cells on the longer side.
 fn decode(file: File) -> std::result::Result<([u32; 2], Vec<f32>), String> {
     let damaged = |error: png::DecodingError| format!("it is damaged ({error}); {ANEW}");
     let mut decoder = png::Decoder::new(BufReader::new(file));
@@ -103,7 +105,7 @@ fn decode(file: File) -> std::result::Result<([u32; 2], Vec<f32>), String> {
     let channels = reader.output_color_type().0.samples();
     let step = width.max(height).div_ceil(MOST_CELLS);
     let size = [width.div_ceil(step), height.div_ceil(step)];
-    // Whole numbers: their sum does not depend on the order, so that an interlaced image is the same one.
+    // The sums are whole numbers, so they do not depend on the order: an interlaced image gives the same cells.
     let mut sums = vec![0_u64; size[0] as usize * size[1] as usize];
     for Row { y, first, stride } in rows([width, height], interlaced) {
         let row = reader.next_row().map_err(damaged)?.ok_or_else(|| format!("it is damaged; {ANEW}"))?;
@@ -122,16 +124,16 @@ fn decode(file: File) -> std::result::Result<([u32; 2], Vec<f32>), String> {
     Ok((size, sums.into_iter().map(|sum| (sum as f64 / whole) as f32).collect()))
 }
 
-/// A row as a file holds it: every so many pixels of row `y`, from the first one on.
+/// A row in the file: the pixels of row `y` from the first column on, at equal steps.
 struct Row {
     y: u32,
     first: u32,
     stride: usize,
 }
 
-/// The rows of an image in the order of its file.
+/// The rows of an image, in the order of the file.
 fn rows([width, height]: [u32; 2], interlaced: bool) -> Vec<Row> {
-    /// First column and row, and the steps to the next ones, of each pass (PNG specification, 8.2).
+    /// For each pass, the first column and row and the steps to the next ones (PNG specification, 8.2).
     const ADAM7: [[u32; 4]; 7] =
         [[0, 0, 8, 8], [4, 0, 8, 8], [0, 4, 4, 8], [2, 0, 4, 4], [0, 2, 2, 4], [1, 0, 2, 2], [0, 1, 1, 2]];
     let passes = if interlaced { &ADAM7[..] } else { &[[0, 0, 1, 1]] };

@@ -1,5 +1,5 @@
-//! The opening that light comes in through. A kind is a file here, with its values and how much light it lets in;
-//! `aperture_kinds` lists them.
+//! The aperture: the opening that light enters through. Each kind has a file here, with its values and the fraction of
+//! light that it lets in. `aperture_kinds` lists the kinds.
 
 mod blades;
 mod cats_eye;
@@ -11,7 +11,7 @@ pub use image::Mask;
 
 use super::CameraModel;
 
-/// Calls a macro with the list of all kinds: a kind, what it holds, and its file.
+/// Calls a macro with the list of all kinds. An entry has the name of the kind, its type and its file.
 macro_rules! aperture_kinds {
     ($callback:ident) => {
         $callback! {
@@ -24,9 +24,9 @@ macro_rules! aperture_kinds {
     };
 }
 
-/// What every kind of aperture says of itself.
+/// What every kind of aperture implements.
 trait Kind {
-    /// The share that is open of a disc of the same diameter, seen from the middle of the picture.
+    /// The area of the aperture as seen from the middle of the picture, divided by that of a disc of the same diameter.
     fn open_share(&self) -> f64;
 }
 
@@ -34,7 +34,7 @@ macro_rules! define_aperture {
     ($(($kind:ident, $values:ident, $name:ident),)+) => {
         $(pub use $name::$values;)+
 
-        /// An aperture of one kind, without the stretch that all have.
+        /// An aperture of any kind, without the stretch that applies to all kinds.
         #[derive(Debug, Clone, PartialEq)]
         pub enum ApertureKind {
             $(#[doc = concat!("See [`", stringify!($values), "`].")] $kind($values),)+
@@ -49,22 +49,21 @@ macro_rules! define_aperture {
 }
 aperture_kinds!(define_aperture);
 
-/// What is said of an opening of a given diameter: see [`Aperture::kind`] for what that makes. Light comes in evenly
-/// all over it.
+/// The shape of an aperture of a given diameter, as the user describes it. [`Aperture::kind`] says which kind that is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Aperture {
-    /// Blades of the iris, whose corners lie on the rim of the opening; 0 is a disc.
+    /// The number of blades of the iris, whose corners lie on the rim of the aperture. 0 is a disc.
     pub blades: u32,
-    /// How far the iris is turned, anticlockwise as seen from behind the camera. At 0 a blade's edge
-    /// is at its right.
+    /// The angle by which the iris is turned, anticlockwise as seen from behind the camera. At 0, the middle of a
+    /// blade's edge is at the right.
     pub rotation_degrees: f32,
-    /// How far the blades' edges are bent out: 0 is a polygon, 1 a disc. In between, the
+    /// The curvature of the blades' edges: 0 is a polygon, 1 a disc. In between, the
     /// square of an edge's distance from the centre is interpolated linearly.
     pub roundness: f32,
-    /// Height divided by width. The longer of the two is the diameter of the lens.
+    /// Height divided by width. The longer of the two is the diameter.
     pub anamorphic: f32,
-    /// Optical vignetting, of a disc: how far the lens's front rim is off its centre, seen from a corner of
-    /// the picture, in diameters. What passes both is the overlap of two discs.
+    /// Optical vignetting of a disc: the displacement of the front rim of the lens, as seen from a corner of the
+    /// picture, in diameters. The light that passes both is that of the overlap of two discs.
     pub cats_eye: f32,
     /// An image that gives the shape instead: light comes in where the image is bright.
     pub image: Option<ApertureImage>,
@@ -89,13 +88,13 @@ impl Aperture {
         Ok(())
     }
 
-    /// Half the width and half the height of an opening of diameter 2.
+    /// Half the width and half the height of an aperture of diameter 2.
     pub fn stretch(&self) -> [f64; 2] {
         let ratio = f64::from(self.anamorphic);
         [ratio.recip().min(1.0), ratio.min(1.0)]
     }
 
-    /// What it is before a camera of this model.
+    /// The kind of aperture that a camera of this model has.
     pub fn kind(&self, model: CameraModel) -> ApertureKind {
         match &self.image {
             _ if model == CameraModel::Pinhole => ApertureKind::Disc(Disc),
@@ -105,7 +104,7 @@ impl Aperture {
                 rotation_degrees: self.rotation_degrees,
                 roundness: self.roundness,
             }),
-            // A hole has no front rim.
+            // A hole without a lens has no front rim.
             None if self.cats_eye > 0.0 && model == CameraModel::ThinLens => {
                 ApertureKind::CatsEye(CatsEye { in_corner: self.cats_eye })
             }
@@ -114,8 +113,9 @@ impl Aperture {
         }
     }
 
-    /// The share that is open of a disc of the same diameter, seen from the middle of the picture. The corners of
-    /// blades lie on the disc's rim, so three let in 41% of its light, five 76%, six 83% and eight 90%.
+    /// The area of the aperture as seen from the middle of the picture, divided by that of a disc of the same diameter.
+    /// The corners of blades lie on the rim, so three blades let in 41% of the light of a disc, five 76%, six 83%,
+    /// eight 90%.
     pub fn open_share(&self) -> f64 {
         let [half_width, half_height] = self.stretch();
         half_width * half_height * self.kind(CameraModel::ThinLens).open_share()

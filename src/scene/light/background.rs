@@ -1,4 +1,4 @@
-//! What is seen where nothing is hit.
+//! The background, which is seen where a ray hits nothing.
 
 use crate::scene::toml::error::ParseError;
 use crate::scene::toml::number::Rgb;
@@ -6,8 +6,8 @@ use glam::Vec3;
 use serde::Deserialize;
 use toml::Spanned;
 
-/// Radiance where nothing is hit: `horizon` up to the horizontal, `zenith` straight up, and in
-/// between mixed by `y (2 - y)` of the unit direction's height `y`.
+/// The radiance of the background: `horizon` at the horizon and below, `zenith` straight up. In between, the two are
+/// mixed by the weight `y (2 - y)`, where `y` is the height of the unit direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Background {
     /// The radiance at and below the horizon.
@@ -17,11 +17,11 @@ pub struct Background {
 }
 
 impl Background {
-    /// Nothing.
+    /// A black background.
     pub const BLACK: Self = Self { horizon: Vec3::ZERO, zenith: Vec3::ZERO };
 }
 
-/// `[background]`.
+/// The table `[background]`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::scene) struct BackgroundTable {
@@ -30,7 +30,7 @@ pub(in crate::scene) struct BackgroundTable {
     zenith: Option<Rgb>,
 }
 
-/// What the table says; black, where there is none.
+/// The background that the table describes. It is black without a table.
 pub(in crate::scene) fn background(
     table: Option<&Spanned<BackgroundTable>>,
 ) -> Result<Background, ParseError> {

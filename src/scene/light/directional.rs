@@ -10,11 +10,11 @@ use toml::Spanned;
 /// Light along parallel lines.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DirectionalLight {
-    /// Towards the light, of any length but zero.
+    /// The direction towards the light, of any length but zero.
     pub direction: Vec3,
 }
 
-/// `[[directional]]`.
+/// The table `[[directional]]`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::scene) struct DirectionalTable {

@@ -1,5 +1,5 @@
-//! Lights. A kind is a file here, with its plain values and its table of the scene file; `light_kinds` lists those that a
-//! scene can have many of. Beside them it has one background. Radiance is linear r, g, b.
+//! Lights. Each kind has a file here, with its values and its table of the scene file. `light_kinds` lists the kinds of
+//! which a scene can have many. In addition, a scene has one background. Radiance is linear r, g, b.
 
 mod background;
 mod directional;
@@ -11,8 +11,8 @@ pub(super) use background::{BackgroundTable, background};
 use super::toml::error::ParseError;
 use glam::Vec3;
 
-/// Calls a macro with the list of all kinds: a kind, its values, its table, and the name of that in scene files. What
-/// stands before them comes first in the list.
+/// Calls a macro with the list of all kinds. An entry has the name of the kind, its values, its table, and the name of
+/// the table in scene files. The arguments of this macro come first in the list.
 macro_rules! light_kinds {
     ($callback:ident $(, $before:tt)*) => {
         $callback! {
@@ -26,14 +26,14 @@ macro_rules! light_kinds {
 }
 pub(super) use light_kinds;
 
-/// A light without extent: Suffern, chapter 14. It does not weaken with distance.
+/// A light without extent: Suffern, chapter 14. Its light does not weaken with distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Light {
-    /// The place of a point light, or the direction of a directional one.
+    /// The position of a point light, or the direction of a directional one.
     pub kind: LightKind,
     /// The radiance that arrives at every point, however far away.
     pub radiance: Vec3,
-    /// Whether shapes cast shadows in its light.
+    /// Whether shapes cast shadows in this light.
     pub shadows: bool,
 }
 
@@ -42,7 +42,7 @@ pub(super) trait LightTable {
     /// The light.
     ///
     /// # Errors
-    /// Where there is no such light.
+    /// A [`ParseError`] if the table describes no light.
     fn light(&self) -> Result<Light, ParseError>;
 }
 
@@ -54,7 +54,7 @@ macro_rules! define_light {
         /// The names of the kinds in scene files.
         pub(super) const LIGHT_NAMES: &[&str] = &[$(stringify!($name)),+];
 
-        /// Where light comes from.
+        /// The position or the direction of a light.
         #[derive(Debug, Clone, Copy, PartialEq)]
         pub enum LightKind {
             $(#[doc = concat!("See [`", stringify!($values), "`].")] $kind($values),)+

@@ -9,11 +9,11 @@ use serde::Deserialize;
 /// Light from a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointLight {
-    /// The point.
+    /// The position of the light.
     pub position: DVec3,
 }
 
-/// `[[point]]`.
+/// The table `[[point]]`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::scene) struct PointTable {

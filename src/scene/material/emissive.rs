@@ -1,13 +1,13 @@
-//! Gives off light, but lights nothing else.
+//! A material that glows, but does not illuminate other surfaces.
 
 use super::Kind;
 use crate::scene::toml::number::LightColor;
 use glam::{DVec3, Vec3};
 
-/// Radiance = `radiance`.
+/// The radiance of the surface is `radiance`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Emissive {
-    /// What it gives off into every direction.
+    /// The radiance in every direction.
     pub radiance: Vec3,
 }
 
@@ -17,7 +17,7 @@ impl Kind for Emissive {
     }
 }
 
-/// `[emissive.NAME]`.
+/// The table `[emissive.NAME]`.
 pub(in crate::scene) type EmissiveTable = LightColor;
 
 impl From<EmissiveTable> for Emissive {

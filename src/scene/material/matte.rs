@@ -1,4 +1,4 @@
-//! Reflects light evenly into all directions.
+//! A material that reflects light evenly in all directions.
 
 use super::Kind;
 use crate::scene::Texture;
@@ -8,14 +8,14 @@ use glam::DVec3;
 use serde::Deserialize;
 use std::f64::consts::FRAC_1_PI;
 
-/// Radiance = `ka color ambient + sum over lights of kd color / pi * radiance cos`.
+/// The radiance of the surface is `ka color ambient + sum over lights of kd color / pi * radiance cos`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Matte {
-    /// Its colour.
+    /// The colour.
     pub color: Texture,
-    /// Ambient reflection.
+    /// The coefficient of ambient reflection.
     pub ka: f32,
-    /// Diffuse reflection.
+    /// The coefficient of diffuse reflection.
     pub kd: f32,
 }
 
@@ -26,7 +26,7 @@ impl Kind for Matte {
     }
 }
 
-/// `[matte.NAME]`.
+/// The table `[matte.NAME]`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::scene) struct MatteTable {

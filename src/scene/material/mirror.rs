@@ -1,18 +1,19 @@
-//! Mirrors, perhaps with highlights of the lights.
+//! A mirror, which can have highlights.
 
 use super::Kind;
 use crate::scene::toml::number::{NonNegative, Rgb};
 use glam::{DVec3, Vec3};
 use serde::Deserialize;
 
-/// Radiance = `reflectance * mirror image + sum over lights of ks (r . view)^exponent * radiance cos`.
+/// The radiance of the surface is `reflectance * mirror image + sum over lights of ks (r . view)^exponent * radiance
+/// cos`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mirror {
-    /// The share of the light that it mirrors.
+    /// The fraction of light that is reflected as in a mirror.
     pub reflectance: Vec3,
-    /// Specular reflection of lights.
+    /// The coefficient of specular reflection of lights.
     pub ks: f32,
-    /// The larger, the smaller are the highlights.
+    /// The exponent of the highlights: a larger one makes them smaller.
     pub exponent: f32,
 }
 
@@ -26,7 +27,7 @@ impl Kind for Mirror {
     }
 }
 
-/// `[mirror.NAME]`.
+/// The table `[mirror.NAME]`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::scene) struct MirrorTable {

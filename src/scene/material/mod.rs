@@ -1,5 +1,5 @@
-//! Materials: Suffern, chapters 14, 15 and 24. A kind is a file here, with its plain values and its table of the scene
-//! file; `material_kinds` lists them.
+//! Materials: Suffern, chapters 14, 15 and 24. Each kind has a file here, with its values and its table of the scene file.
+//! `material_kinds` lists the kinds.
 
 mod emissive;
 mod matte;
@@ -8,8 +8,8 @@ mod phong;
 
 use glam::{DVec3, Vec3};
 
-/// Calls a macro with the list of all kinds: a kind, its table, and the name of that in scene files. What stands before
-/// them comes first in the list.
+/// Calls a macro with the list of all kinds. An entry has the name of the kind, its table, and the name of the table in
+/// scene files. The arguments of this macro come first in the list.
 macro_rules! material_kinds {
     ($callback:ident $(, $before:tt)*) => {
         $callback! {
@@ -25,13 +25,13 @@ macro_rules! material_kinds {
 }
 pub(super) use material_kinds;
 
-/// What every kind of material says of itself.
+/// What every kind of material implements.
 trait Kind {
-    /// As bright as it looks anywhere, but for what is mirrored in it: as seen where all lights meet it head-on, and
-    /// where its highlight is. `lights` is their radiance together.
+    /// The largest radiance of the material, without mirror images: where all lights shine on it perpendicularly, and
+    /// in its highlight. `lights` is the sum of their radiances.
     fn brightest(&self, lights: DVec3, ambient: DVec3) -> DVec3;
 
-    /// The share of the light that it mirrors.
+    /// The fraction of light that is reflected as in a mirror.
     fn reflectance(&self) -> Vec3 {
         Vec3::ZERO
     }
@@ -52,13 +52,13 @@ macro_rules! define_material {
         }
 
         impl Material {
-            /// As bright as it looks anywhere, but for what is mirrored in it: as seen where all lights meet it head-on,
-            /// and where its highlight is. `lights` is their radiance together.
+            /// The largest radiance of the material, without mirror images: where all lights shine on it
+            /// perpendicularly, and in its highlight. `lights` is the sum of their radiances.
             pub fn brightest(&self, lights: DVec3, ambient: DVec3) -> DVec3 {
                 match self { $(Self::$kind(of) => of.brightest(lights, ambient),)+ }
             }
 
-            /// The share of the light that it mirrors.
+            /// The fraction of light that is reflected as in a mirror.
             pub fn reflectance(&self) -> Vec3 {
                 match self { $(Self::$kind(of) => of.reflectance(),)+ }
             }

@@ -1,4 +1,4 @@
-//! Matte, with a highlight.
+//! A matte material with a highlight.
 
 use super::{Kind, Matte};
 use crate::scene::Texture;
@@ -7,24 +7,24 @@ use crate::scene::toml::number::NonNegative;
 use glam::DVec3;
 use serde::Deserialize;
 
-/// Radiance = [`Matte`]'s + `sum over lights of ks (r . view)^exponent * radiance cos`, for the direction `r` of the
-/// mirrored light.
+/// The radiance of the surface is that of [`Matte`] plus `sum over lights of ks (r . view)^exponent * radiance cos`.
+/// Here `r` is the direction of the reflected light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Phong {
-    /// Its colour; the highlight has the light's.
+    /// The colour. The highlight has the colour of the light.
     pub color: Texture,
-    /// Ambient reflection.
+    /// The coefficient of ambient reflection.
     pub ka: f32,
-    /// Diffuse reflection.
+    /// The coefficient of diffuse reflection.
     pub kd: f32,
-    /// Specular reflection.
+    /// The coefficient of specular reflection.
     pub ks: f32,
-    /// The larger, the smaller is the highlight.
+    /// The exponent of the highlight: a larger one makes it smaller.
     pub exponent: f32,
 }
 
 impl Phong {
-    /// What it is without the highlight.
+    /// The same material without the highlight.
     pub fn matte(&self) -> Matte {
         Matte { color: self.color, ka: self.ka, kd: self.kd }
     }
@@ -36,7 +36,7 @@ impl Kind for Phong {
     }
 }
 
-/// `[phong.NAME]`.
+/// The table `[phong.NAME]`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::scene) struct PhongTable {

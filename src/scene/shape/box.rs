@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3, Vec3};
 use serde::Deserialize;
 use toml::Spanned;
 
-/// An axis-aligned box, `lower < upper` on every axis.
+/// An axis-aligned box. `lower < upper` holds on every axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Box {
     /// The corner with the smallest coordinates.
@@ -39,7 +39,7 @@ impl Kind for Box {
     }
 }
 
-/// `[[box]]`.
+/// The table `[[box]]`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::scene) struct BoxTable {

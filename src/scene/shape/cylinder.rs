@@ -7,19 +7,19 @@ use glam::{DMat3, DVec3, Vec3};
 use serde::Deserialize;
 use toml::Spanned;
 
-/// The side of a cylinder, open at both ends and seen from both sides: K. Suffern, chapter 19.
+/// The side of a cylinder, open at both ends and visible from both sides: K. Suffern, chapter 19.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cylinder {
-    /// One end of its axis.
+    /// The start of the axis.
     pub start: DVec3,
-    /// The other end.
+    /// The end of the axis.
     pub end: DVec3,
-    /// Greater than zero.
+    /// The radius, greater than zero.
     pub radius: f32,
 }
 
 impl Cylinder {
-    /// The unit direction of its axis, from the start to the end.
+    /// The unit direction of the axis, from the start to the end.
     pub fn axis(&self) -> DVec3 {
         (self.end - self.start).normalize()
     }
@@ -31,7 +31,7 @@ impl Kind for Cylinder {
     }
 
     fn bounds(&self) -> Option<[DVec3; 2]> {
-        // How far a circle around the axis reaches along each of the world's.
+        // How far a circle around this axis extends along each axis of the world.
         let squared = self.axis() * self.axis();
         let around = f64::from(self.radius) * (1.0 - squared).max(DVec3::ZERO).map(f64::sqrt);
         Some([self.start.min(self.end) - around, self.start.max(self.end) + around])
@@ -53,7 +53,7 @@ impl Kind for Cylinder {
     }
 }
 
-/// `[[cylinder]]`.
+/// The table `[[cylinder]]`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::scene) struct CylinderTable {

@@ -1,5 +1,5 @@
-//! Shapes, in world coordinates and scene units. A kind is a file here, with its plain values, its table of the scene
-//! file, and what a tree and a camera must know of it; `shape_kinds` lists them.
+//! Shapes, in world coordinates and scene units. Each kind has a file here, with its values, its table of the scene
+//! file, and what the tree and the camera need to know about it. `shape_kinds` lists the kinds.
 
 mod r#box;
 mod cylinder;
@@ -11,7 +11,8 @@ use super::toml::error::ParseError;
 use glam::{DMat3, DVec3, Vec3};
 use toml::Spanned;
 
-/// Calls a macro with the list of all kinds: a kind, its table, and the name of that in scene files.
+/// Calls a macro with the list of all kinds. An entry has the name of the kind, its table, and the name of the table in
+/// scene files.
 macro_rules! shape_kinds {
     ($callback:ident) => {
         $callback! {
@@ -27,33 +28,33 @@ macro_rules! shape_kinds {
 }
 pub(super) use shape_kinds;
 
-/// A shape with the index of its material.
+/// A shape with its material and its velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shaded {
     /// The shape.
     pub shape: Shape,
     /// Index into [`super::Scene::materials`].
     pub material: u32,
-    /// How it moves, in scene units a second. It is where the scene file says in the middle of the exposure,
-    /// and takes its checker along. What has no bounds stands still.
+    /// The velocity in scene units per second. In the middle of the exposure, the shape is where the scene file says.
+    /// Its checker moves with it. A shape without bounds does not move.
     pub velocity: Vec3,
 }
 
-/// What every kind of shape says of itself.
+/// What every kind of shape implements.
 pub(super) trait Kind: Copy {
-    /// The same shape in coordinates with this origin.
+    /// The same shape in coordinates with another origin.
     fn seen_from(self, origin: DVec3) -> Self;
 
-    /// The corners of the box around it with the smallest and the largest coordinates. None where it has no end.
+    /// The bounding box: the corners with the smallest and the largest coordinates. `None` for an infinite shape.
     fn bounds(&self) -> Option<[DVec3; 2]>;
 
-    /// The distance of its farthest point from the origin.
+    /// The largest distance of a point of the shape from the origin.
     fn reach(&self) -> f64;
 
-    /// Points whose convex hull holds it. `axes` are those that a box around it should be along, if it may choose.
+    /// Points whose convex hull contains the shape. A shape that can choose uses the corners of a box along `axes`.
     fn corners(&self, axes: DMat3) -> Corners;
 
-    /// Three vectors that only shapes of this kind have in common that cover one another, as f32 has them.
+    /// Three vectors in f32 that identify the points of the shape: shapes of one kind with equal vectors are identical.
     fn place(&self) -> [Vec3; 3];
 }
 
@@ -62,13 +63,13 @@ pub(super) trait ShapeTable {
     /// The shape.
     ///
     /// # Errors
-    /// Where there is no such shape.
+    /// A [`ParseError`] if the table describes no shape.
     fn shape(&self) -> Result<Shape, ParseError>;
 
     /// The name of its material.
     fn material(&self) -> &Spanned<String>;
 
-    /// In scene units a second.
+    /// The velocity in scene units per second.
     fn velocity(&self) -> Vec3;
 }
 
@@ -85,7 +86,7 @@ impl Corners {
         Self { points: all, count: N }
     }
 
-    /// Those of a parallelepiped around `center`, whose edges are twice the columns of `half`.
+    /// The corners of a parallelepiped around `center`, whose edges are twice the columns of `half`.
     pub(super) fn of_box(center: DVec3, half: DMat3) -> Self {
         let side = |corner: usize, axis: usize| if corner >> axis & 1 == 0 { -1.0 } else { 1.0 };
         let points = std::array::from_fn(|corner| {
@@ -115,29 +116,30 @@ macro_rules! define_shape {
         }
 
         impl Shape {
-            /// The same shape in coordinates with this origin.
+            /// The same shape in coordinates with another origin.
             pub fn seen_from(self, origin: DVec3) -> Self {
                 match self { $(Self::$kind(shape) => Self::$kind(shape.seen_from(origin)),)+ }
             }
 
-            /// The corners of the box around it with the smallest and the largest coordinates. None where it has
-            /// no end.
+            /// The bounding box: the corners with the smallest and the largest coordinates. `None` for an infinite
+            /// shape.
             pub fn bounds(&self) -> Option<[DVec3; 2]> {
                 match self { $(Self::$kind(shape) => shape.bounds(),)+ }
             }
 
-            /// The distance of its farthest point from the origin.
+            /// The largest distance of a point of the shape from the origin.
             pub fn reach(&self) -> f64 {
                 match self { $(Self::$kind(shape) => shape.reach(),)+ }
             }
 
-            /// Points whose convex hull holds it. `axes` are those that a box around it should be along, if it may
-            /// choose.
+            /// Points whose convex hull contains the shape. A shape that can choose uses the corners of a box along
+            /// `axes`.
             pub fn corners(&self, axes: DMat3) -> Corners {
                 match self { $(Self::$kind(shape) => shape.corners(axes),)+ }
             }
 
-            /// Three vectors that only shapes of this kind have in common that cover one another, as f32 has them.
+            /// Three vectors in f32 that identify the points of the shape: shapes of one kind with equal vectors are
+            /// identical.
             pub(super) fn place(&self) -> [Vec3; 3] {
                 match self { $(Self::$kind(shape) => shape.place(),)+ }
             }
@@ -164,14 +166,14 @@ macro_rules! define_shape {
 shape_kinds!(define_shape);
 
 impl Shape {
-    /// Whether it has an end: then it can move, and be in a tree.
+    /// Whether the shape is finite. Only finite shapes can move and be in the tree.
     pub fn is_bounded(&self) -> bool {
         self.bounds().is_some()
     }
 }
 
 impl Shaded {
-    /// A shape that stands still.
+    /// A shape that does not move.
     pub fn still(shape: impl Into<Shape>, material: u32) -> Self {
         Self { shape: shape.into(), material, velocity: Vec3::ZERO }
     }

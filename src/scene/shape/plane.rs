@@ -7,12 +7,12 @@ use glam::{DMat3, DVec3, Vec3};
 use serde::Deserialize;
 use toml::Spanned;
 
-/// An infinite plane, seen from both sides.
+/// An infinite plane, visible from both sides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane {
-    /// Any point on it.
+    /// Any point on the plane.
     pub point: DVec3,
-    /// Across it, of any length but zero.
+    /// The normal, of any length but zero.
     pub normal: Vec3,
 }
 
@@ -38,7 +38,7 @@ impl Kind for Plane {
     }
 }
 
-/// `[[plane]]`.
+/// The table `[[plane]]`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::scene) struct PlaneTable {

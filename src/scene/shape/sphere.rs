@@ -10,9 +10,9 @@ use toml::Spanned;
 /// A sphere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sphere {
-    /// Its centre.
+    /// The centre.
     pub center: DVec3,
-    /// Greater than zero.
+    /// The radius, greater than zero.
     pub radius: f32,
 }
 
@@ -38,7 +38,7 @@ impl Kind for Sphere {
     }
 }
 
-/// `[[sphere]]`.
+/// The table `[[sphere]]`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::scene) struct SphereTable {

@@ -7,21 +7,20 @@ use glam::{DMat3, DVec3, Vec3};
 use serde::Deserialize;
 use toml::Spanned;
 
-/// A triangle, seen from both sides.
+/// A triangle, visible from both sides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Triangle {
-    /// Its corners.
+    /// The corners.
     pub vertices: [DVec3; 3],
-    /// Unit normals at the corners, for shading; none: flat. At barycentric `(b1, b2)` the shading
-    /// normal is `normalize((1 - b1 - b2) n0 + b1 n1 + b2 n2)`, or the geometric one where that sum is
-    /// zero, turned to the side of the geometric normal as wound; then both are turned to the side that
-    /// the ray comes from, by the geometric normal.
+    /// Unit normals at the corners for shading. `None` for a flat triangle. At barycentric coordinates `(b1, b2)`, the
+    /// shading normal is `normalize((1 - b1 - b2) n0 + b1 n1 + b2 n2)`, turned to the side of the geometric normal,
+    /// which the order of the corners gives. If the sum is zero, it is the geometric normal. If the geometric normal
+    /// points away from the origin of the ray, both normals are then reversed.
     pub normals: Option<[Vec3; 3]>,
 }
 
 impl Triangle {
-    /// Whether it has an area beyond what rounding makes of none, and a normal that can be made a unit vector, in
-    /// f32 too.
+    /// Whether the area is more than a rounding error, and whether the normal can be normalized, also in f32.
     pub(in crate::scene) fn has_area(&self) -> bool {
         let [a, b, c] = self.vertices;
         let longest = (b - a).length_squared().max((c - a).length_squared());
@@ -29,8 +28,8 @@ impl Triangle {
         area > (1e-9 * longest).powi(2) && area >= f64::from(f32::MIN_POSITIVE)
     }
 
-    /// The same triangle, wound in the same sense, with the corner first that is opposite its longest edge. From
-    /// there the two edges span it with the least loss to rounding.
+    /// The same triangle with the same winding, starting at the corner opposite the longest edge. The two edges from
+    /// that corner span the triangle with the smallest rounding errors.
     pub fn from_widest_corner(self) -> Self {
         let length =
             |corner: usize| self.vertices[(corner + 1) % 3].distance_squared(self.vertices[(corner + 2) % 3]);
@@ -66,7 +65,7 @@ impl Kind for Triangle {
     }
 }
 
-/// `[[triangle]]`.
+/// The table `[[triangle]]`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::scene) struct TriangleTable {

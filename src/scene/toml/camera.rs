@@ -47,7 +47,7 @@ fn upwards() -> Vector {
     Vector(DVec3::Y)
 }
 
-/// What the camera's table says.
+/// What the table `[camera]` describes.
 pub(super) struct Shot {
     pub(super) camera: Camera,
     pub(super) model: CameraModel,
@@ -59,7 +59,7 @@ pub(super) struct Shot {
 }
 
 impl Shot {
-    /// Of a picture that is so large. An image of the aperture lies in `folder`, unless its path says otherwise.
+    /// Reads the table, for a picture of this size. The path of an aperture image is relative to `folder`.
     pub(super) fn new(
         table: &Spanned<CameraTable>,
         size: [u32; 2],
@@ -84,12 +84,12 @@ impl Shot {
         if let Some(preset) = preset {
             preset.apply(&mut camera, &mut model, &mut lens);
         }
-        // What is given beside a preset changes it.
+        // Other keys change what the preset gives.
         camera.vfov_radians = vfov_radians.unwrap_or(camera.vfov_radians);
         if camera.vfov_radians.is_nan() {
             return Err(ParseError::at(span, NEEDS_VFOV));
         }
-        // Of the view's distance, or of a known lens.
+        // The angle may come from `view_distance` or from the preset, whose ranges are not checked otherwise.
         in_range(camera.vfov_radians.to_degrees(), VFOV_DEGREES).map_err(|wrong| {
             ParseError::at(span, &format!("the vertical field of view in degrees {wrong}"))
         })?;
@@ -125,7 +125,7 @@ impl Shot {
 }
 
 impl CameraTable {
-    /// The vertical field of view, if the table gives one.
+    /// The vertical field of view, if the table gives it.
     fn vfov_radians(&self, size: [u32; 2]) -> Result<Option<f64>, &'static str> {
         match (&self.vfov_degrees, &self.view_distance, &self.pixel_size) {
             (None, None, None) => Ok(None),

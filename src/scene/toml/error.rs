@@ -3,7 +3,7 @@
 use std::ops::Range;
 use toml::Spanned;
 
-/// What is wrong, and where in the text.
+/// An error in the text, with its place.
 pub(in crate::scene) struct ParseError {
     pub(in crate::scene) span: Range<usize>,
     pub(in crate::scene) message: String,

@@ -17,7 +17,7 @@ pub(super) struct MaterialList {
 }
 
 impl MaterialList {
-    /// Adds every material of one kind. A name stands for one material, whatever its kind.
+    /// Adds the materials of one kind. Two materials must not have the same name, even if they are of different kinds.
     pub(super) fn add<T: Into<Material>>(&mut self, tables: Named<T>) -> Result<(), ParseError> {
         for (name, table) in tables {
             let number = u32::try_from(self.materials.len()).unwrap_or(u32::MAX);

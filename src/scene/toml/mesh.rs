@@ -28,7 +28,7 @@ fn one() -> Positive {
 }
 
 impl MeshTable {
-    /// Reads the mesh, whose path starts in `folder`, and adds its triangles, with this material if there is one.
+    /// Reads the mesh, whose path is relative to `folder`, and adds its triangles, with this material if there is one.
     pub(super) fn add_to(&self, scene: &mut Scene, folder: &Path, material: Option<u32>) -> Result<()> {
         let mesh = Mesh::read(&folder.join(self.file.get_ref()))?;
         let placement = Placement::new(self.scale.f64(), self.rotate_degrees.0, self.position.0);

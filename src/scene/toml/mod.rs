@@ -1,4 +1,4 @@
-//! The scene file's tables. A table's name says what the thing is: `[[sphere]]`, `[matte.NAME]`,
+//! The tables of a scene file. The name of a table says what it describes: `[[sphere]]`, `[matte.NAME]`,
 //! `[[directional]]`. Unknown keys are errors.
 
 mod camera;
@@ -107,7 +107,7 @@ fn default_max_bounces() -> Count {
 }
 
 impl SceneFile {
-    /// Files that the scene names lie in `folder`, unless their paths say otherwise.
+    /// Makes the scene. Paths in the tables are relative to `folder`.
     pub(super) fn into_scene(mut self, name: &str, folder: &Path) -> Result<Scene, ParseError> {
         let size = [self.size[0].0, self.size[1].0];
         let Shot { camera, model, lens, hole, aperture, shutter, iso } =

@@ -1,4 +1,4 @@
-//! Numbers of the scene file, checked as they are read, so that an error names their line.
+//! Numbers in the scene file. They are checked while the file is read, so that an error has a line.
 
 use super::error::ParseError;
 use crate::scene::{MAX_BOUNCES, MAX_EXTENT, MAX_LENGTH, MIN_LENGTH, PLACES, in_range};
@@ -31,7 +31,7 @@ pub(in crate::scene) struct Extent(pub(in crate::scene) u32);
 #[serde(try_from = "i64")]
 pub(in crate::scene) struct Count(pub(in crate::scene) u32);
 
-/// A number that may be left out, held against its range.
+/// Checks the range of a number that may be left out.
 pub(super) fn ranged<T>(
     key: &str,
     number: Option<&Spanned<T>>,
@@ -46,12 +46,12 @@ where
     Ok(Some(value))
 }
 
-/// Where a vector may be left out.
+/// Reads a vector that may be left out.
 pub(in crate::scene) fn zero() -> Vector {
     Vector(DVec3::ZERO)
 }
 
-/// A vector that must have a direction.
+/// Checks that a vector is not zero.
 pub(in crate::scene) fn nonzero(vector: &Spanned<Vector>) -> Result<Vec3, ParseError> {
     match vector.get_ref().f32() {
         Vec3::ZERO => Err(ParseError::at(vector, "this vector must not be zero")),
@@ -124,7 +124,7 @@ impl TryFrom<i64> for Count {
     }
 }
 
-/// What gives off light: `[ambient]` and `[emissive.NAME]`.
+/// The table of something that emits light: `[ambient]` or `[emissive.NAME]`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::scene) struct LightColor {
@@ -139,12 +139,12 @@ impl LightColor {
     }
 }
 
-/// Where a colour may be left out.
+/// Reads a colour that may be left out.
 pub(in crate::scene) fn white() -> Rgb {
     Rgb(Vec3::ONE)
 }
 
-/// Where a light need not say that it casts shadows.
+/// The default of `shadows`.
 pub(in crate::scene) fn yes() -> bool {
     true
 }

@@ -15,7 +15,7 @@ pub(super) struct ViewTable {
     tolerance: Option<Spanned<f32>>,
 }
 
-/// How the picture is shown at first.
+/// How the picture is shown by default.
 pub(super) fn view(table: Option<&Spanned<ViewTable>>) -> Result<View, ParseError> {
     let plain = View::default();
     let Some(table) = table.map(Spanned::get_ref) else {

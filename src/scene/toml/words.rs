@@ -1,5 +1,5 @@
-//! What is wrong with the text of a scene file, in the words of the format: the crates that read TOML and
-//! fill structs know of maps, sequences and fields only.
+//! Error messages about the text of a scene file, in the terms of the format. The crates that parse TOML and fill
+//! structs speak only of maps, sequences and fields.
 
 use super::error::ParseError;
 use crate::scene::light::LIGHT_NAMES;
@@ -14,15 +14,15 @@ use toml::de::{DeTable, DeValue};
 enum Form {
     /// `[camera]`, once.
     One,
-    /// `[[sphere]]`, as often as there are spheres.
+    /// `[[sphere]]`, once for each sphere.
     Many,
     /// `[matte.NAME]`.
     Named,
-    /// `size = ...`, no table.
+    /// `size = ...`, which is not a table.
     Value,
 }
 
-/// What can stand at the top of a file, besides lights, materials and shapes.
+/// The names at the top level of a file, without those of lights, materials and shapes.
 const TOP: [(&str, Form); 7] = [
     ("size", Form::Value),
     ("max_bounces", Form::Value),
@@ -33,7 +33,7 @@ const TOP: [(&str, Form); 7] = [
     ("mesh", Form::Many),
 ];
 
-/// What can stand at the top of a file.
+/// The names at the top level of a file.
 fn top() -> impl Iterator<Item = (&'static str, Form)> {
     let kinds = [(LIGHT_NAMES, Form::Many), (MATERIAL_NAMES, Form::Named), (SHAPE_NAMES, Form::Many)];
     let named = |(names, form): (&'static [&'static str], Form)| names.iter().map(move |name| (*name, form));
@@ -41,12 +41,13 @@ fn top() -> impl Iterator<Item = (&'static str, Form)> {
     TOP.into_iter().chain(kinds.map(|(name, form)| (name.trim_start_matches("r#"), form)))
 }
 
-/// Reads a text into what the format's structs say.
+/// Reads a text into the structs of the format.
 pub(super) fn read<'de, T: Deserialize<'de>>(text: &'de str) -> Result<T, ParseError> {
     let (document, errors) = DeTable::parse_recoverable(text);
     let wrong_table = wrong_table(document.get_ref());
     if let Some(error) = errors.first() {
-        // A second table of this name, say, which the first one should not have been.
+        // A second table with the same name may mean that both should be written as [[name]], which is the better
+        // message.
         let repeated = error.message().starts_with("duplicate key");
         return Err(wrong_table.filter(|_| repeated).unwrap_or_else(|| not_toml(text, error)));
     }
@@ -61,7 +62,7 @@ fn form_of(name: &str) -> Option<Form> {
     top().find(|(known, _)| *known == name).map(|(_, form)| form)
 }
 
-/// How a table is written, with its brackets.
+/// The header of a table, with its brackets.
 fn header(name: &str) -> String {
     match form_of(name) {
         Some(Form::Many) => format!("[[{name}]]"),
@@ -71,7 +72,7 @@ fn header(name: &str) -> String {
     }
 }
 
-/// The first table that is written another way than its kind is, or that there is none of.
+/// An error for the first table that has an unknown name or the wrong brackets.
 fn wrong_table(document: &DeTable<'_>) -> Option<ParseError> {
     let errors = document.iter().filter_map(|(key, value)| {
         let name = key.get_ref().as_ref();
@@ -86,7 +87,7 @@ fn wrong_table(document: &DeTable<'_>) -> Option<ParseError> {
     errors.min_by_key(|error| error.span.start)
 }
 
-/// What is wrong with a table, and where, if not at its name.
+/// What is wrong with a table. The place is `None` if it is the name of the table.
 fn table_error(
     name: &str,
     form: Form,
@@ -135,7 +136,7 @@ fn table_error(
     }
 }
 
-/// A list of what a checker's table has would be taken for it.
+/// An error for a colour that is a list of lists. serde would read such a list as the table of a checker.
 fn checker_error(keys: &DeTable<'_>) -> Option<(Option<std::ops::Range<usize>>, String)> {
     let color = keys.iter().find(|(key, _)| key.get_ref() == "color").map(|(_, value)| value)?;
     let list = color.get_ref().as_array()?;
@@ -145,7 +146,7 @@ fn checker_error(keys: &DeTable<'_>) -> Option<(Option<std::ops::Range<usize>>, 
 }
 
 fn unknown_table(name: &str, value: &DeValue<'_>) -> String {
-    // [scene.sphere], say.
+    // For example [scene.sphere].
     let inner = match value {
         DeValue::Table(table) => Some(table),
         DeValue::Array(list) => list.first().and_then(|first| first.get_ref().as_table()),
@@ -167,7 +168,7 @@ const THREE_NUMBERS: &str = "three numbers, [x, y, z]";
 const COLOR: &str = "a colour, three numbers [r, g, b]";
 const COLOR_OR_CHECKER: &str = "[r, g, b], or { even = [r, g, b], odd = [r, g, b], size = EDGE }";
 
-/// What belongs to a key.
+/// The kind of value that a key takes.
 fn value_of(table: Option<&str>, key: &str) -> &'static str {
     match (table, key) {
         (None, "size") => "[width, height], two whole numbers of pixels",
@@ -188,7 +189,7 @@ fn value_of(table: Option<&str>, key: &str) -> &'static str {
     }
 }
 
-/// What a value is.
+/// A description of a value.
 fn kind_of(value: &DeValue<'_>) -> String {
     match value {
         DeValue::String(text) => format!("the text \"{text}\""),
@@ -205,13 +206,13 @@ fn kind_of(value: &DeValue<'_>) -> String {
     }
 }
 
-/// Tables and keys that lead to a place of the text, and the value there.
+/// A place in the text: the tables and keys that lead to it, and its value.
 struct Place<'a> {
     keys: Vec<&'a str>,
     value: Option<&'a DeValue<'a>>,
 }
 
-/// The innermost thing around a place.
+/// The innermost key or value at a position in the text.
 fn place<'a>(table: &'a DeTable<'a>, at: usize) -> Option<Place<'a>> {
     table.iter().find_map(|(key, value)| {
         let here = || Place { keys: Vec::new(), value: Some(value.get_ref()) };
@@ -230,7 +231,7 @@ fn place_in<'a>(value: &'a Spanned<DeValue<'a>>, at: usize) -> Option<Place<'a>>
     inner.or_else(|| value.span().contains(&at).then(here))
 }
 
-/// A text that is TOML, but not what the format's structs want.
+/// An error for a text that is TOML, but does not fit the structs of the format.
 fn not_a_scene(text: &str, error: &toml::de::Error) -> ParseError {
     let span = error.span().unwrap_or(0..0);
     let (document, _) = DeTable::parse_recoverable(text);
@@ -250,7 +251,7 @@ fn not_a_scene(text: &str, error: &toml::de::Error) -> ParseError {
         let near = known.iter().find(|known| strsim::jaro_winkler(known, key) > 0.8);
         let hint = near
             .map_or_else(|| format!("it has: {}", known.join(", ")), |near| format!("did you mean {near}?"));
-        // The place is the unknown key itself.
+        // The last of the keys is the unknown key itself.
         format!("{} has no key {key}; {hint}", titled(&keys[..keys.len().saturating_sub(1)]))
     } else if message.starts_with("invalid") || message.contains("overflow") {
         let key = keys.last().copied().unwrap_or_default();
@@ -258,7 +259,7 @@ fn not_a_scene(text: &str, error: &toml::de::Error) -> ParseError {
         let found = value.map_or_else(String::new, |value| format!("; here is {}", kind_of(value)));
         format!("{key} must be {}{found}", value_of(table, key))
     } else {
-        // Of a number that is out of its range.
+        // The message is about a number that is out of its range.
         let key = keys.last().filter(|_| message.starts_with("is "));
         let words = message.replace('\n', "; ");
         key.map_or(words.clone(), |key| format!("{key} {words}"))
@@ -266,7 +267,7 @@ fn not_a_scene(text: &str, error: &toml::de::Error) -> ParseError {
     ParseError { span, message }
 }
 
-/// A table by its header.
+/// The name of a table for messages: its header.
 fn titled(keys: &[&str]) -> String {
     match keys {
         [] => "the scene".into(),
@@ -279,17 +280,17 @@ fn titled(keys: &[&str]) -> String {
     }
 }
 
-/// A text that is no TOML.
+/// An error for a text that is not TOML.
 fn not_toml(text: &str, error: &toml::de::Error) -> ParseError {
     let message = error.message();
     if message.contains("recurs") {
-        // Where is not said: at the deepest line.
+        // The error has no place, so the message points to the line that nests deepest.
         let depth = |line: &str| line.matches(['.', '[', '{']).count();
         let deepest = text.split_inclusive('\n').scan(0, |end, line| {
             *end += line.len();
             Some((depth(line), *end - line.len()))
         });
-        // The first of them.
+        // The first of the deepest lines is chosen.
         let at =
             deepest.reduce(|best, line| if line.0 > best.0 { line } else { best }).map_or(0, |line| line.1);
         let message = "tables or lists are nested too deep here; a scene nests three deep at most".into();
@@ -299,7 +300,7 @@ fn not_toml(text: &str, error: &toml::de::Error) -> ParseError {
     let (end, word) = word_at(text, span.start);
     let numeric = |first: char| first.is_ascii_digit() || "+-.".contains(first);
     let is_number = word.starts_with(numeric);
-    // The space between a date and a time is allowed, which hides a comma that is missing.
+    // TOML allows a space between a date and a time, so its parser does not report a missing comma between two numbers.
     let next = text[end..].trim_start_matches([' ', '\t']);
     let two_numbers = is_number && next.len() < text.len() - end && next.starts_with(numeric);
     let message = match message {
@@ -329,7 +330,7 @@ fn not_toml(text: &str, error: &toml::de::Error) -> ParseError {
     ParseError { span, message }
 }
 
-/// Where the word ends that stands there between blanks, commas and brackets, and the word.
+/// The end of the word at a position, and the word. Words are separated by blanks, commas, brackets and quotes.
 fn word_at(text: &str, at: usize) -> (usize, &str) {
     let ends = |letter: char| letter.is_whitespace() || "[]{}=,#\"'".contains(letter);
     let mut at = at.min(text.len());

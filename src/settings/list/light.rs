@@ -6,8 +6,8 @@ use crate::settings::setting::NONE;
 use crate::settings::{Access, Choice, Field, Part, Role, Setting, Slider, Widget, named};
 use std::borrow::Cow;
 
-/// imgui reads a typed value by the first number of this format. So the seconds come first: a fraction would be read only
-/// up to its bar.
+/// imgui reads a typed value by the first number of this format. So the seconds come first: a fraction would be read
+/// only up to its bar.
 fn shutter_time(seconds: f32) -> Cow<'static, str> {
     if seconds >= 0.5 { "%.3g s".into() } else { format!("%.3g s (1/{:.0})", seconds.recip()).into() }
 }

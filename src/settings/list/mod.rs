@@ -1,5 +1,5 @@
-//! The list of all settings. It defines the options of the command line, what pictures and scene files store, the ranges,
-//! and the rows of the viewer's panel.
+//! The list of all settings. It defines the options of the command line, what pictures and scene files store, the
+//! ranges, and the rows of the viewer's panel.
 
 mod aperture;
 mod camera;
