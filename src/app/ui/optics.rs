@@ -39,7 +39,7 @@ impl Optics {
             .position([left, height - size[1] - MARGIN], Condition::FirstUseEver)
             .size(size, Condition::FirstUseEver)
             .opened(&mut open)
-            // `background` paints only what the views leave free: painting the same area twice is slow on a software device.
+            // `background` paints only what the views leave free: a software device is slow to paint an area twice.
             .flags(WindowFlags::NO_BACKGROUND)
             .build(|| {
                 let ([left, top], [width, height]) = (ui.cursor_screen_pos(), ui.content_region_avail());
