@@ -1,9 +1,9 @@
 //! Compiles the program's compute shaders, `shaders/*.comp`, to SPIR-V in `OUT_DIR`, where
-//! `src/vulkan/pipeline.rs` embeds them. Shaders include files by their paths in `shaders`, and some that are made of
-//! `src/interface.rs`: `interface.glsl` has its numbers, and `shape/kinds.glsl` includes the file of every kind of
-//! shape, and so on for what else has kinds.
+//! `src/vulkan/pipeline.rs` embeds them. Shaders include files by their paths in `shaders`. They also include files
+//! that this script generates from `src/interface.rs`: `interface.glsl` contains its numbers, and `shape/kinds.glsl`
+//! includes the file of every kind of shape. Lights, materials, textures and apertures have a `kinds.glsl` too.
 //!
-//! The build script of `tests/shaders` uses this one to compile what only tests and benches need.
+//! The build script of `tests/shaders` uses this one to compile the shaders that only tests and benches need.
 
 use glslang::{
     Compiler, CompilerOptions, Program, Shader, ShaderInput, ShaderSource, ShaderStage, SourceLanguage,
@@ -19,13 +19,13 @@ use std::path::{Path, PathBuf};
 #[allow(dead_code, reason = "only its lists are read here")]
 mod interface;
 
-/// Where this script and the shaders lie, beside the folder that cargo runs it in.
+/// The sources of the shaders: the root of this package, and the text of `interface.glsl`.
 pub struct Sources {
     root: PathBuf,
     interface: String,
 }
 
-/// The folders of `shaders` that have kinds, each with their names.
+/// The folders of `shaders` that contain a file for each kind, with the names of the kinds.
 const KINDS: &[(&str, &[&str])] = &[
     ("aperture", interface::aperture::NAMES),
     ("light", interface::light::NAMES),
@@ -36,13 +36,13 @@ const KINDS: &[(&str, &[&str])] = &[
 
 /// A compiled shader.
 pub struct Compiled {
-    /// Its SPIR-V.
+    /// The SPIR-V.
     pub words: Vec<u32>,
-    /// The names of the files that it is made of.
+    /// The names of the source files: the shader's own, and all that it includes.
     pub files: Vec<String>,
 }
 
-/// A change of the text of the file with this name.
+/// Takes the name of a source file and its text, and returns the text to compile instead.
 pub type Edit<'a> = &'a dyn Fn(&str, String) -> String;
 
 fn main() {
@@ -73,7 +73,7 @@ pub fn write_words(path: &Path, words: &[u32]) {
 }
 
 impl Sources {
-    /// The shaders of the package that lies in `root`. Cargo runs the script again when one of them changes.
+    /// The sources of the package in the folder `root`. Cargo runs the build script again when one of them changes.
     pub fn new(root: &Path) -> Self {
         for file in ["build.rs", "src/interface.rs", "shaders"] {
             println!("cargo::rerun-if-changed={}", root.join(file).display());
@@ -93,9 +93,9 @@ impl Sources {
         shaders
     }
 
-    /// Includes the file of every kind that has a folder of its own. A kind need not have every function: for each that
-    /// any of them has, a macro goes through the kinds that do. `FOR_EACH_APERTURE_POINT(DO)` is
-    /// `DO(DISC, disc) DO(BLADES, blades)` and so on.
+    /// Generates the `kinds.glsl` of a folder, which includes the file of every kind. A kind need not define every
+    /// function. For each function that some kinds define, a macro goes through these kinds:
+    /// `FOR_EACH_APERTURE_POINT(DO)` is `DO(DISC, disc) DO(BLADES, blades)` and so on.
     fn kinds_glsl(&self, folder: &str) -> Option<String> {
         let (_, names) = KINDS.iter().find(|(of, _)| *of == folder)?;
         let upper = folder.to_uppercase();
@@ -119,7 +119,7 @@ impl Sources {
         Some(glsl + "#endif\n")
     }
 
-    /// Compiles a shader whose files are changed by `edit` first.
+    /// Compiles a shader after `edit` has changed the text of its files.
     pub fn compile(&self, path: &Path, edit: Edit<'_>) -> Result<Compiled, GlslangError> {
         let compiler = Compiler::acquire().expect("glslang starts once a process");
         let name = path.file_name().expect("a file has a name").to_string_lossy().into_owned();
@@ -149,7 +149,7 @@ impl Sources {
     }
 }
 
-/// Finds `#include "name"`, and notes what it found.
+/// Finds the file of each `#include "name"`, and keeps the names of all files that it found.
 struct Includes<'a> {
     sources: &'a Sources,
     edit: Edit<'a>,
@@ -197,7 +197,8 @@ fn interface_glsl() -> String {
     glsl + "#endif\n"
 }
 
-/// What shaders need of shapes besides. `KIND_BEGIN` and `KIND_END` are the range of a kind in the list.
+/// The constants and macros that shaders need for shapes alone. `KIND_BEGIN` and `KIND_END` are the range of a kind in
+/// the list.
 fn shape_ranges() -> String {
     use interface::shape::{FIRST_UNBOUNDED, NAMES};
     let mut glsl = String::new();
@@ -232,13 +233,13 @@ fn shape_ranges() -> String {
     glsl
 }
 
-/// A macro that does something with each of some kinds.
+/// A macro that applies another macro to each of these kinds.
 fn for_each(name: &str, kinds: &[&str]) -> String {
     let each: String = kinds.iter().map(|kind| format!(" DO({kind}, {})", kind.to_lowercase())).collect();
     format!("#define FOR_EACH_{name}(DO){each}")
 }
 
-/// The functions of a kind that its file defines, by their names behind the kind's.
+/// The functions that the file of a kind defines. `sphere_distance` is the function `distance` of the kind `sphere`.
 fn functions<'a>(text: &'a str, kind: &str) -> Vec<&'a str> {
     let start = format!("{kind}_");
     let defined = |line: &'a str| {
@@ -249,8 +250,8 @@ fn functions<'a>(text: &'a str, kind: &str) -> Vec<&'a str> {
     text.lines().filter_map(defined).collect()
 }
 
-/// glslang names the file it was given "0"; cargo shows what a build script says as an error only
-/// behind `cargo::error=`. `with` says what was changed in it, if anything.
+/// Prints a compiler error so that cargo shows it, which it does only for lines that start with `cargo::error=`. The
+/// shader's path replaces "0", which is glslang's name for it. `with` tells how the shader was edited, if it was.
 pub fn report(path: &Path, with: &str, error: &GlslangError) {
     let log = error.to_string();
     let errors: Vec<&str> = log.lines().filter(|line| line.contains("ERROR")).collect();

@@ -50,7 +50,11 @@ fn of_one_loading(mut settings: Settings, other: &Settings) -> Settings {
 pub fn on_device(settings: &Settings) -> u32 {
     let (scene, shutter) = (&settings.estimator.scene, settings.estimator.shutter);
     let data = SceneData::new(scene, shutter);
-    assert!(data.environment.reach.is_finite(), "the scene reaches {}", data.environment.reach);
+    assert!(
+        data.environment.bounding_radius.is_finite(),
+        "the scene reaches {}",
+        data.environment.bounding_radius
+    );
     let depth = if data.tree_depth > 0 {
         data.tree_depth
     } else {

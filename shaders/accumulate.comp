@@ -20,15 +20,15 @@ layout(set = 0, binding = BINDING_FILM_MOMENTS, r32f) uniform image2D film_momen
 layout(push_constant, std430) uniform AccumulatePush {
     Lattice lattice; // the pixels to merge
     uint seed;
-    uint first_sample; // 0: the picture starts, and the film is taken for empty
+    uint first_sample; // 0: the picture starts, so the film counts as empty
     float jitter; // pixels
-    int reach; // how many pixels a sample can land from its start pixel; 0: at home
+    int reach; // how many pixels away from its start pixel a sample can land; 0: always in its start pixel
 } push;
 
 vec4 film = vec4(0.0);
 float moment = 0.0;
 
-// Merges what was traced for the start pixel.
+// Merges the batch that was traced for a start pixel.
 void gather(ivec2 start) {
     vec4 batch = imageLoad(traced_image, start);
     if (HAS_MOMENTS == 1u) {

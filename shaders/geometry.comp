@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 
-// For overlays: what each pixel's middle sees through the centre of the lens, in the middle of the exposure. The
-// unit normal of the surface, on the side that is seen, stands in the camera's frame: to the right, up, and back to
-// the lens. In w is the depth along the optical axis; MISS where nothing is seen.
+// For overlays: the surface that each pixel's centre sees through the centre of the lens, in the middle of the
+// exposure. In xyz is the unit normal on the side that is seen, in the camera's frame: right, up, and back towards the
+// lens. In w is the depth along the optical axis, or MISS where there is no surface.
 
 #include "interface.glsl"
 
@@ -19,7 +19,7 @@ layout(set = 0, binding = BINDING_SURFACE_IMAGE, rgba32f) writeonly uniform imag
 layout(push_constant, std430) uniform GeometryPush {
     Camera camera;
     uvec2 extent;
-    uint top; // the first row
+    uint top; // the first row of pixels of this dispatch
 } push;
 
 void main() {
@@ -36,7 +36,7 @@ void main() {
     if (hit.distance < MISS && !given_up) {
         vec3 position = ray.origin + hit.distance * ray.direction;
         float error;
-        vec3 normal = settle(hit.surface, position, error);
+        vec3 normal = project_onto_surface(hit.surface, position, error);
         float side = dot(normal, ray.direction) > 0.0 ? -1.0 : 1.0;
         normal = side * (hit.surface.shading_normal == vec3(0.0) ? normal : hit.surface.shading_normal);
         seen.xyz = normal * mat3(push.camera.u, push.camera.v, push.camera.w);

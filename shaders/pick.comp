@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 
-// What the camera sees at one place of the film, in the middle of the exposure: along the ray through the
-// centre of the lens, along a fan of rays up the lens and one across it, and along the first samples of the
-// pixel. For focusing, for the drawing of the optics, and for whoever wants to know what lies under the pointer.
+// What the camera sees at one place of the film, in the middle of the exposure: along the ray through the centre of the
+// lens, along a vertical and a horizontal fan of rays through the lens, and along the first samples of the pixel. The
+// result serves for focusing, for drawing the optics, and for telling what lies under the pointer.
 
 layout(local_size_x = 8) in;
 
@@ -14,24 +14,24 @@ layout(local_size_x = 8) in;
 
 struct PickedRay {
     vec3 origin;
-    float distance; // to what it meets; MISS where that is nothing
+    float distance; // to the surface that the ray meets; MISS if it meets none
     vec3 direction;
     uint material;
-    vec3 focus; // where the centre ray of its film position meets the focal plane
+    vec3 focus; // where the centre ray of the same film position meets the focal plane
 };
 
 layout(push_constant, std430) uniform PickPush {
     Camera camera;
     uvec2 extent;
     vec2 position; // in pixels from the picture's upper left corner
-    uint fan; // rays each, more than one
+    uint fan; // the number of rays in each fan, at least two
     uint samples;
     uint seed;
 } push;
 
 layout(set = 0, binding = BINDING_PICKED_RAYS, std430) writeonly buffer PickedRays { PickedRay picked[]; };
 
-// The point of the lens, of radius one, of a ray through its centre or of a fan from rim to rim.
+// The point of the lens, whose radius is one, that a ray passes: the centre, or a point of a fan from rim to rim.
 vec2 opening_point(uint ray) {
     if (ray == 0u) {
         return vec2(0.0);

@@ -1,10 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Pass 3: turns the film's means into a picture: exposure and sRGB encoding. A pixel without a
-// sample shows the nearest one that has some. While the first sample is being filled in, the film
-// bound here is the tracing image, and only the texels of a lattice in it are of this picture: each
-// stands for the cell of pixels around it, and an invocation resolves a cell.
+// Pass 3: turns the film's means into a picture, with exposure and sRGB encoding. A pixel without a sample shows the
+// nearest pixel that has some. While the first sample is being filled in, the film bound here is the tracing image, and
+// only the texels of a lattice in it belong to this picture. Each of them stands for the cell of pixels around it, and
+// an invocation resolves one cell.
 
 #include "interface.glsl"
 
@@ -17,22 +17,22 @@ layout(local_size_x = GROUP_SIZE, local_size_y = GROUP_SIZE) in;
 layout(set = 0, binding = BINDING_FILM_IMAGE, rgba32f) readonly uniform image2D film_image;
 layout(set = 0, binding = BINDING_PICTURE_IMAGE, rgba8) writeonly uniform image2D picture_image;
 
-// Of the overlays: what each pixel's middle sees, and second moments of luminance where the film has some.
+// Overlays read the surface that each pixel's centre sees, and the second moments of luminance if the film has some.
 layout(set = 0, binding = BINDING_SURFACE_IMAGE, rgba32f) readonly uniform image2D surface_image;
 layout(set = 0, binding = BINDING_FILM_MOMENTS, r32f) readonly uniform image2D film_moments;
 
-// 0: every texel is known to have a sample. Mesa's software device runs through what is not taken of a
-// branch as well, so the search is compiled in only where it may be needed.
+// 0 if every texel is known to have a sample. Mesa's software device runs through branches that are not taken as well,
+// so the search for a sample is compiled in only where it may be needed.
 layout(constant_id = ID_HAS_HOLES) const uint HAS_HOLES = 1u;
-// Likewise.
+// 0 if no overlay is shown. Overlays are compiled in only where they are needed, for the same reason.
 layout(constant_id = ID_HAS_OVERLAY) const uint HAS_OVERLAY = 0u;
 
 layout(push_constant, std430) uniform ResolvePush {
     uvec2 extent;
-    uint preview_stride; // of a lattice of pixels that is filled: (2, 2) + 4 i, or 2 i, or all
+    uint preview_stride; // the stride of the lattice of pixels with samples: (2, 2) + 4 i, or 2 i, or all pixels
     float exposure; // linear factor
     OverlayScale overlay;
-    uint blue_first; // 1: for a window whose pixels start with blue, and which takes the bytes as they are
+    uint blue_first; // 1: the bytes are copied to a window whose pixels start with blue
 } push;
 
 const int SEARCH_RADIUS = 4;
@@ -43,7 +43,7 @@ ivec2 site_of(ivec2 cell) {
     return cell * int(push.preview_stride) + site_in_cell;
 }
 
-// The texel that a cell shows, or an empty one where it lies outside.
+// The texel that a cell shows, or an empty one if that texel lies outside the film.
 vec4 film_at(ivec2 cell) {
     ivec2 site = site_of(cell);
     if (site.x < 0 || site.y < 0 || !inside(uvec2(site), push.extent)) {
@@ -52,7 +52,7 @@ vec4 film_at(ivec2 cell) {
     return imageLoad(film_image, site);
 }
 
-// The nearest texel with a count, by Euclidean distance, within SEARCH_RADIUS cells; else an empty one.
+// The nearest texel with samples, by Euclidean distance, within SEARCH_RADIUS cells, or an empty one if there is none.
 vec4 nearest_sampled(ivec2 cell) {
     vec4 nearest = vec4(0.0);
     int nearest_distance = 2 * SEARCH_RADIUS * SEARCH_RADIUS + 1;
@@ -75,7 +75,7 @@ void main() {
     if (!inside(first, push.extent)) {
         return;
     }
-    // A cell at the right or lower edge may have no texel of its own: the one before it has the nearest.
+    // A cell at the right or lower edge may have no texel. Then the cell before it has the nearest one.
     ivec2 last_cell = (ivec2(push.extent) - 1 - site_of(ivec2(0))) / int(push.preview_stride);
     vec4 film = film_at(min(ivec2(cell), last_cell));
     if (HAS_HOLES == 1u && film.w == 0.0) {

@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Between batches of an adaptive picture: lists the pixels to go on with. One stops when its error and
-// that of every pixel around it are small enough, so that no edge stops because its samples happened to
-// fall on one side, and when little can be lost of what none of them has met. A pixel that has stopped never
+// Between batches of an adaptive picture: lists the pixels to go on with. A pixel stops when its error and those of its
+// neighbours are small enough, and when little light can be missing that none of their samples has met. The neighbours
+// count so that no edge stops just because its samples happened to fall on one side. A pixel that has stopped never
 // starts again.
 
 #include "interface.glsl"
@@ -16,9 +16,9 @@ layout(set = 0, binding = BINDING_TRACED_IMAGE, rgba32f) writeonly uniform image
 layout(set = 0, binding = BINDING_FILM_IMAGE, rgba32f) readonly uniform image2D film_image;
 layout(set = 0, binding = BINDING_FILM_MOMENTS, r32f) readonly uniform image2D film_moments;
 
-layout(set = 0, binding = BINDING_KEPT_PIXELS, std430) buffer KeptPixels { uint kept_pixels[]; }; // as the active ones
+layout(set = 0, binding = BINDING_KEPT_PIXELS, std430) buffer KeptPixels { uint kept_pixels[]; }; // like active_pixels
 
-// The most luminance of what rays can meet, for each cell of a grid over the picture.
+// An upper bound of the luminance that rays can meet, for each cell of a grid over the picture.
 layout(set = 0, binding = BINDING_BRIGHTEST, std430) readonly buffer BrightestBuffer { float brightest[]; };
 
 layout(push_constant, std430) uniform SelectPush {
@@ -27,7 +27,7 @@ layout(push_constant, std430) uniform SelectPush {
     uint cell; // width and height of a cell of brightest, in pixels
 } push;
 
-// How far around a pixel all must be still enough.
+// A pixel goes on if any pixel within this distance, in x and in y, is noisy.
 const int DILATION = 1;
 
 shared uint kept_in_group;
@@ -57,12 +57,12 @@ void main() {
     bool is_active = find_pixel(push.lattice, pixel);
     bool kept = is_active && has_noise_around(ivec2(pixel));
     if (is_active && !kept) {
-        // No neighbour may gather from it what it traced last.
+        // The pixel's last batch must not be gathered by its neighbours again.
         imageStore(traced_image, ivec2(pixel), vec4(0.0));
     }
     uint place = kept ? atomicAdd(kept_in_group, 1u) : 0u;
     barrier();
-    // One addition for the group keeps its pixels together, and the list in coherent runs.
+    // A single atomic addition for the workgroup keeps its pixels together, so that the list has coherent runs.
     if (gl_LocalInvocationIndex == 0u) {
         first_of_group = atomicAdd(kept_pixels[0], kept_in_group);
     }

@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 
-// Pass 1: traces a batch of samples for each pixel of the lattice and writes one texel: their mean
-// and their number. In an adaptive picture, their second moment too.
+// Pass 1: traces a batch of samples for each pixel of the lattice, and writes their mean and their number to a texel of
+// the tracing image. If the film has second moments, it also writes the second moment of the batch.
 
 #include "interface.glsl"
 

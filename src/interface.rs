@@ -1,8 +1,8 @@
 //! The numbers that the shaders and this program share, each written down once.
 //!
-//! `build.rs` reads this file too and makes `interface.glsl` of it, which the shaders include. A name that stands
-//! here as `binding::FILM_IMAGE` is `BINDING_FILM_IMAGE` in GLSL, and so on: see [`LISTS`] and [`NUMBERS`]. The
-//! file therefore uses nothing of the crate.
+//! `build.rs` reads this file too and generates `interface.glsl` from it, which the shaders include. The constant
+//! `binding::FILM_IMAGE` is called `BINDING_FILM_IMAGE` in GLSL, and so on: see [`LISTS`] and [`NUMBERS`]. Because
+//! the build script compiles this file, it uses no other part of the crate.
 
 /// Names that are numbered from zero, in this order.
 macro_rules! numbered {
@@ -24,7 +24,7 @@ pub mod binding {
         FILM_IMAGE,
         /// The picture as it is shown or written.
         PICTURE_IMAGE,
-        /// What each pixel's middle sees: the normal of the surface, and in w its depth.
+        /// The surface that each pixel's centre sees: its normal, and in w its depth.
         SURFACE_IMAGE,
         /// The second moments of the tracing image.
         TRACED_MOMENTS,
@@ -32,19 +32,19 @@ pub mod binding {
         FILM_MOMENTS,
         /// The pixels that are still traced.
         ACTIVE_PIXELS,
-        /// The pixels that a selection keeps: the active ones after it.
+        /// The pixels that a selection keeps, which are the active pixels from then on.
         KEPT_PIXELS,
-        /// The most luminance that rays can meet, for each cell of a grid over the picture.
+        /// An upper bound of the luminance that rays can meet, for each cell of a grid over the picture.
         BRIGHTEST,
-        /// What the trace pass counts.
+        /// The counters of the trace pass.
         COUNTERS,
-        /// What the pick pass finds.
+        /// The rays of the pick pass, and where they end.
         PICKED_RAYS,
         /// The materials.
         MATERIALS,
         /// The lights.
         LIGHTS,
-        /// The sky, and what belongs to the scene as a whole.
+        /// The sky, the ambient light, and the radius of the scene.
         ENVIRONMENT,
         /// The nodes and shapes of the tree, then the shapes in the list.
         RECORDS,
@@ -56,21 +56,21 @@ pub mod binding {
         APERTURE,
         /// The running sums of the aperture's image.
         APERTURE_SUMS,
-        /// The arrangement of the blue noise.
+        /// The tile of numbers that arranges the blue noise.
         BLUE_NOISE_TILE,
-        /// What `tests/probes` read.
+        /// The inputs of the shaders in `tests/probes`.
         PROBE_INPUTS,
-        /// What `tests/probes` write.
+        /// The outputs of the shaders in `tests/probes`.
         PROBE_OUTPUTS,
     }
 }
 
-/// The specialization constants. Those that say yes or no are 1 or 0.
+/// The specialization constants. A constant that answers a yes-or-no question is 1 for yes and 0 for no.
 pub mod constant {
     numbered! {
-        /// One of [`sampler`](super::sampler).
+        /// The sampler: one of [`sampler`](super::sampler).
         SAMPLER,
-        /// Whether the film has second moments: an adaptive picture, or one whose error is shown.
+        /// Whether the film has second moments. It does if the picture is adaptive or its error is shown.
         HAS_MOMENTS,
         /// Whether the resolve pass may meet pixels without a sample.
         HAS_HOLES,
@@ -88,11 +88,11 @@ pub mod constant {
         LIST_BEGIN,
         /// The kinds of shapes in the scene: a bit for each [`shape`](super::shape).
         SHAPE_KINDS,
-        /// The kinds of materials in the scene, likewise.
+        /// The kinds of materials in the scene: a bit for each [`material`](super::material).
         MATERIAL_KINDS,
-        /// The kinds of textures in the scene.
+        /// The kinds of textures in the scene: a bit for each [`texture`](super::texture).
         TEXTURE_KINDS,
-        /// The kinds of lights in their buffer.
+        /// The kinds of lights in the buffer of lights: a bit for each [`light`](super::light).
         LIGHT_KINDS,
         /// Whether any triangle has normals at its corners.
         HAS_CORNER_NORMALS,
@@ -100,18 +100,19 @@ pub mod constant {
         SCENE_MOVES,
         /// Whether the device's origin is not the scene's own.
         SCENE_IS_SHIFTED,
-        /// The number of nodes on the longest way from the tree's root to a leaf; 0 where there is no tree.
+        /// The number of nodes on the longest path from the tree's root to a leaf; 0 where there is no tree.
         TREE_DEPTH,
         /// The most steps that a ray may take in the tree.
         MOST_TREE_STEPS,
-        /// One of [`aperture`](super::aperture).
+        /// The kind of aperture: one of [`aperture`](super::aperture).
         APERTURE,
-        /// The end of the list's first kind of shapes. Those of the others follow, so this is the last name.
+        /// Where the range of the first kind of shapes ends in the list. The constants of the other kinds have the
+        /// numbers after this one, so this must be the last name.
         SHAPE_END,
     }
 }
 
-/// How sample values are made.
+/// The samplers, which generate sample values.
 pub mod sampler {
     numbered! {
         /// Independent random numbers.
@@ -123,7 +124,7 @@ pub mod sampler {
     }
 }
 
-/// The kinds of apertures. Each has a file of its name in `shaders/aperture`.
+/// The kinds of apertures. Each kind has a file with its name in `shaders/aperture`.
 pub mod aperture {
     numbered! {
         /// A disc.
@@ -132,14 +133,14 @@ pub mod aperture {
         ELLIPSE,
         /// An iris of blades.
         BLADES,
-        /// A disc that is cut off towards the picture's corners.
+        /// A disc that the front rim of the lens cuts off, the more the nearer to the picture's corners.
         CATS_EYE,
-        /// Light comes in where an image is bright.
+        /// An image: light comes in where it is bright.
         IMAGE,
     }
 }
 
-/// The kinds of shapes. Each has a file of its name in `shaders/shape`, and the list has them in this order.
+/// The kinds of shapes. Each kind has a file with its name in `shaders/shape`, and the list is sorted in this order.
 pub mod shape {
     numbered! {
         /// A sphere.
@@ -154,77 +155,77 @@ pub mod shape {
         PLANE,
     }
 
-    /// The first kind without bounds: those before it can be in the tree, and move.
+    /// The first unbounded kind. Shapes of the kinds before it can be in the tree, and can move.
     pub const FIRST_UNBOUNDED: u32 = PLANE;
 }
 
-/// The kinds of materials. Each has a file of its name in `shaders/material`.
+/// The kinds of materials. Each kind has a file with its name in `shaders/material`.
 pub mod material {
     numbered! {
-        /// Reflects light evenly into all directions.
+        /// A surface that reflects light evenly into all directions.
         MATTE,
-        /// Matte, with a highlight.
+        /// A matte surface with a highlight.
         PHONG,
-        /// Mirrors.
+        /// A mirror.
         MIRROR,
-        /// Gives off light.
+        /// A surface that emits light.
         EMISSIVE,
     }
 }
 
-/// The kinds of textures. Each has a file of its name in `shaders/texture`.
+/// The kinds of textures. Each kind has a file with its name in `shaders/texture`.
 pub mod texture {
     numbered! {
         /// One colour everywhere.
         CONSTANT,
-        /// Two colours in cells.
+        /// Two colours that alternate between the cells of a grid.
         CHECKER,
     }
 }
 
-/// The kinds of lights. Each has a file of its name in `shaders/light`.
+/// The kinds of lights. Each kind has a file with its name in `shaders/light`.
 pub mod light {
     numbered! {
-        /// From a point.
+        /// Light from a point.
         POINT,
-        /// Along parallel lines.
+        /// Light along parallel lines.
         DIRECTIONAL,
-        /// What rays see that meet nothing.
+        /// The sky, which rays see that meet no surface.
         BACKGROUND,
     }
 }
 
-/// The ways to the radiance along a ray. Each has a file of its name in `shaders/integrator`.
+/// The integrators, which find the radiance along a ray. Each has a file with its name in `shaders/integrator`.
 pub mod integrator {
     numbered! {
-        /// Lights, ambient light, and mirrors.
+        /// Whitted's integrator: direct light with hard shadows, ambient light, and mirrors.
         WHITTED,
     }
 }
 
-/// What can be shown instead of the picture, or on it.
+/// The overlays, which are shown instead of the picture or drawn on it.
 pub mod overlay {
     numbered! {
         /// Nothing.
         NONE,
-        /// What is sharp is marked.
+        /// A mark on everything that is sharp.
         FOCUS_PEAKING,
-        /// What lies in the focal plane is marked.
+        /// A mark on everything that lies in the focal plane.
         FOCAL_PLANE,
         /// The circle of confusion.
         CIRCLE_OF_CONFUSION,
         /// The depth along the axis.
         DEPTH,
-        /// Which way surfaces face.
+        /// The normals of the surfaces.
         NORMALS,
-        /// The number of samples.
+        /// The number of samples of each pixel.
         COUNT,
-        /// The standard error.
+        /// The standard error of each pixel's mean.
         ERROR,
     }
 }
 
-/// Every list above, by what its names begin with in GLSL.
+/// Every list above, with the prefix of its names in GLSL.
 pub const LISTS: &[(&str, &[&str])] = &[
     ("BINDING_", binding::NAMES),
     ("ID_", constant::NAMES),
@@ -238,7 +239,7 @@ pub const LISTS: &[(&str, &[&str])] = &[
     ("OVERLAY_", overlay::NAMES),
 ];
 
-/// A number as GLSL has it.
+/// A number with its type in GLSL.
 #[derive(Debug, Clone, Copy)]
 pub enum Number {
     /// A `uint`.
@@ -249,7 +250,7 @@ pub enum Number {
     Vec3([f32; 3]),
 }
 
-/// Single numbers, under one name on both sides.
+/// Single numbers. Each has the same name in Rust and in GLSL.
 macro_rules! numbers {
     ($($(#[$doc:meta])* $name:ident: $kind:ident($type:ty) = $value:expr;)+) => {
         $($(#[$doc])* pub const $name: $type = $value;)+
@@ -259,28 +260,28 @@ macro_rules! numbers {
 }
 
 numbers! {
-    /// The distance to what is not there. No hit is as far away.
+    /// The distance of a ray that meets nothing. No hit is as far away.
     MISS: F32(f32) = 1e30;
-    /// Width and height of a workgroup of the passes that go over pixels.
+    /// Width and height of a workgroup, in the passes that have an invocation for each pixel.
     GROUP_SIZE: U32(u32) = 8;
-    /// The workgroups in a row of a dispatch over a list of pixels.
+    /// The number of workgroups in a row of a dispatch over a list of pixels.
     LISTED_ROW_GROUPS: U32(u32) = 128;
-    /// The bits of a record's index in the stack of the search through the tree.
+    /// The number of bits that the stack of the search through the tree has for a record's index.
     STACK_INDEX_BITS: U32(u32) = 25;
-    /// Where the stack is deeper than this, a step goes through the rest of it in a loop.
+    /// The shifts of this many entries of the stack are spelled out. A loop shifts the entries below them.
     SPELLED_OUT_STACK: U32(u32) = 20;
     /// The most blades of an iris.
     MOST_BLADES: U32(u32) = 16;
-    /// Of a preview with this stride the traced pixels are [`PREVIEW_SITE`] + [`PREVIEW_STRIDE`] i.
+    /// The coarsest preview traces the pixels [`PREVIEW_SITE`] + [`PREVIEW_STRIDE`] i.
     PREVIEW_STRIDE: U32(u32) = 4;
-    /// See [`PREVIEW_STRIDE`].
+    /// Where the traced pixel lies in its cell of the preview: see [`PREVIEW_STRIDE`].
     PREVIEW_SITE: U32(u32) = 2;
-    /// The overlay's colour of what is blurred in front of the focal plane. This and the next three are linear.
+    /// The overlay's colour of everything that is blurred in front of the focal plane, in linear light.
     IN_FRONT: Vec3([f32; 3]) = [0.02, 0.22, 1.0];
-    /// The overlay's colour of what is blurred behind it.
+    /// The overlay's colour of everything that is blurred behind the focal plane, in linear light.
     BEHIND: Vec3([f32; 3]) = [1.0, 0.2, 0.01];
-    /// The overlay's mark of what is sharp.
+    /// The colour of focus peaking, which marks everything that is sharp, in linear light.
     MARK: Vec3([f32; 3]) = [0.05, 1.0, 0.1];
-    /// The overlay's mark of what lies in the focal plane.
+    /// The colour that marks everything that lies in the focal plane, in linear light.
     SLICE: Vec3([f32; 3]) = [1.0, 0.6, 0.0];
 }

@@ -23,7 +23,7 @@ fn twins() -> Vec<Twin> {
         twin!("Texture", Texture, [color, kind, other_color, inverse_size, phase]),
         twin!("Material", Material, [color, ka, kd, ks, exponent, kind]),
         twin!("Light", Light, [radiance, kind, position_or_direction]),
-        twin!("Environment", Environment, [horizon, zenith, ambient, reach]),
+        twin!("Environment", Environment, [horizon, zenith, ambient, bounding_radius]),
         twin!("Counters", Counters, [rays, rejected_samples, listed_samples]),
         twin!(
             "Camera",
@@ -40,15 +40,15 @@ fn twins() -> Vec<Twin> {
             [
                 stretch,
                 blade_count,
-                half_blade,
-                tangent,
-                straight,
-                inverse_straight,
-                inverse_bent,
-                straight_square,
+                half_blade_angle,
+                tan_half_blade,
+                straight_share,
+                inverse_straight_share,
+                inverse_round_share,
+                squared_apothem,
                 roundness,
-                cats_eye,
-                most_cats_eye,
+                cats_eye_shift,
+                max_cats_eye_shift,
                 cells,
                 shutter
             ]

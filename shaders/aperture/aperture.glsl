@@ -1,11 +1,11 @@
-// The opening that light comes in through. A kind is a file beside this one: see record.glsl.
+// The aperture, through which light comes in. Each kind is a file beside this one: see record.glsl.
 
 #ifndef APERTURE_GLSL
 #define APERTURE_GLSL
 
 #include "aperture/kinds.glsl"
 
-// A point of the opening, and in z the share of light that is let in on the way to the film point q.
+// A point of the aperture, and in z the share of the light through it that reaches the film point q.
 vec3 aperture_point(vec2 q, vec2 xi) {
 #define KIND_POINT(KIND, kind_) \
     if (APERTURE == APERTURE_##KIND) { \

@@ -1,5 +1,5 @@
-// Optical vignetting: what passes both the disc of the lens and its front rim, which is farther off the middle the
-// farther out on the film one looks from.
+// Optical vignetting: light must pass both the disc of the lens and its front rim. Seen from a point of the film, the
+// rim is shifted against the disc, and the shift grows with the distance of the point from the film's centre.
 
 #ifndef CATS_EYE_GLSL
 #define CATS_EYE_GLSL
@@ -21,9 +21,10 @@ float excess(float psi) {
     return psi * p2 * sum;
 }
 
-// Of the overlap of two unit discs, the second one off by so much; in z the overlap's share of a disc. It
-// is two caps back to back. A cap is cut into equal areas across: a cut at cos(psi / 2) leaves
-// (psi - sin psi) / 2 outside, which is Kepler's equation.
+// A point of the overlap of two unit discs, the second of which is shifted by `off`, and in z the area of the overlap
+// as a share of a disc's. The overlap is two caps back to back. The value xi.x chooses a cut across a cap by the area
+// outside the cut: a cut at cos(psi / 2) leaves (psi - sin psi) / 2 outside. Solving this for psi is solving Kepler's
+// equation.
 vec3 overlap_point(vec2 off, vec2 xi) {
     float distance = length(off);
     vec2 axis = distance > 0.0 ? off / distance : vec2(1.0, 0.0);
@@ -49,9 +50,9 @@ vec3 overlap_point(vec2 off, vec2 xi) {
 }
 
 vec3 cats_eye_point(vec2 q, vec2 xi) {
-    // What comes from the right has passed the front rim farther left.
-    vec2 off = -aperture.cats_eye * q;
-    off *= min(1.0, aperture.most_cats_eye / max(length(off), 1e-20));
+    // Light that arrives from the right has passed the front rim farther to the left.
+    vec2 off = -aperture.cats_eye_shift * q;
+    off *= min(1.0, aperture.max_cats_eye_shift / max(length(off), 1e-20));
     vec3 point = overlap_point(off, xi);
     return vec3(aperture.stretch * point.xy, point.z);
 }

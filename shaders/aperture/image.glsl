@@ -1,18 +1,19 @@
-// An image: light comes in where it is bright.
+// An image: light comes in where the image is bright.
 
 #ifndef IMAGE_GLSL
 #define IMAGE_GLSL
 
 #include "aperture/record.glsl"
 
-// Running sums of the image's light, from 0 to 1: of its rows, then within each row. Four to a texel.
+// Running sums of the image's light, from 0 to 1: first over its rows, then within each row. A texel holds four sums.
 layout(set = 0, binding = BINDING_APERTURE_SUMS) uniform utextureBuffer aperture_sums;
 
 float sum_at(uint i) {
     return uintBitsToFloat(texelFetch(aperture_sums, int(i >> 2u))[i & 3u]);
 }
 
-// The cell of a value, of those whose sums start there, and in its fraction how far within.
+// Inverts the running sums that start at the index `first`: finds the cell that a value falls into. The fraction of the
+// result is where in the cell the value lies.
 float cell_place(uint first, uint cells, float value) {
     uint cell = 0u;
     [[unroll]] for (uint step = 128u; step > 0u; step >>= 1u) {

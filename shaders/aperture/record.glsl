@@ -1,8 +1,9 @@
-// What every kind of aperture has in common. A kind is a file beside this one with a function:
+// What every kind of aperture has in common. Each kind is a file beside this one with a function:
 //
 //   vec3 KIND_point(vec2 q, vec2 xi)
-//       For a value xi of the unit square, the point of the opening in xy: evenly spread over it, or more often where it
-//       is brighter; its rim is at one or nearer. In z the share of light that is let in on the way to the film point q.
+//       Maps a value xi of the unit square to a point of the aperture, in xy. The points are spread evenly, or in
+//       proportion to the light that comes in, and lie within the unit disc. The result has in z the share of the light
+//       through the point that reaches the film point q.
 
 #ifndef APERTURE_RECORD_GLSL
 #define APERTURE_RECORD_GLSL
@@ -12,35 +13,35 @@
 layout(constant_id = ID_APERTURE) const uint APERTURE = APERTURE_DISC;
 
 struct Aperture {
-    vec2 stretch; // half its width and height, of an opening of diameter two
+    vec2 stretch; // half the width and half the height, where the diameter is two
     float blade_count;
-    float half_blade; // half the angle of a blade
-    float tangent; // of that
-    float straight; // the share of the area that belongs to a polygon, and its inverse, or 0
-    float inverse_straight;
-    float inverse_bent; // of the rest's share, or 0
-    float straight_square; // the polygon's part of the squared distance to the middle of an edge
-    float roundness; // the disc's part
-    float cats_eye; // how far the second disc is off, in radii, for a film point at distance one
-    float most_cats_eye; // and at most
-    uvec2 cells; // of the image: columns and rows
-    float shutter; // how long it is open, in seconds
+    float half_blade_angle; // half the angle between two corners of the iris, as seen from its centre
+    float tan_half_blade; // the tangent of half_blade_angle
+    float straight_share; // the polygon's share of the area; the rest is the disc's
+    float inverse_straight_share; // 1 / straight_share, or 0 where that is 0
+    float inverse_round_share; // 1 / (1 - straight_share), or 0 where straight_share is 1
+    float squared_apothem; // the squared distance of a polygon's edges from the centre, times 1 - roundness
+    float roundness; // the disc's part of the squared distance to an edge
+    float cats_eye_shift; // how far the second disc is shifted, in radii, for a film point with |q| = 1
+    float max_cats_eye_shift; // the largest shift
+    uvec2 cells; // columns and rows of the image
+    float shutter; // how long the shutter is open, in seconds
 };
 
 layout(set = 0, binding = BINDING_APERTURE, std430) readonly buffer ApertureBuffer {
     Aperture shape;
-    vec2 edges[MOST_BLADES]; // the directions of the blades' edges, from the middle
+    vec2 edges[MOST_BLADES]; // the directions from the centre to the middles of the blades' edges
 } aperture_buffer;
 
-// A copy, for the same reason as the scene's (see keep_scene).
+// A copy of the aperture, for the same reason as the copy of the scene: see keep_scene.
 Aperture aperture;
 
-// To be called first thing in main().
+// This must be called at the start of main().
 void keep_aperture() {
     aperture = aperture_buffer.shape;
 }
 
-// Cosine and sine of an angle up to pi / 3: the built-in ones may err by 2^-11.
+// Cosine and sine of an angle up to pi / 3. The errors of the built-in functions may be as large as 2^-11.
 vec2 cosine_and_sine(float angle) {
     float a2 = angle * angle;
     float cosine = 1.0 + a2 * (-0.5 + a2 * (1.0 / 24.0 + a2 * (-1.0 / 720.0 + a2 * (1.0 / 40320.0 - a2 / 3628800.0))));

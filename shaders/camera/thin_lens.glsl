@@ -12,14 +12,14 @@ struct Camera {
     vec3 eye;
     float lens_radius;
     vec3 u;
-    float inverse_focal_distance; // of a hole without a lens: -1 / v, v the film's distance behind it
+    float inverse_focal_distance; // for a hole without a lens: -1 / v, where the film is at the distance v behind it
     vec3 v;
     float inverse_view_distance; // 1 / k: k is the view plane's distance in pixels; negative: upside down
     vec3 w;
     float jitter; // pixels
 };
 
-// The film position of a sample on the view plane at distance one, y up: q of the lens equations.
+// The film position of a sample, as a point of the view plane at distance one, y up. The lens equations call it q.
 // offset is in pixels from the centre of the pixel, y down.
 vec2 view_plane_point(Camera camera, uvec2 extent, uvec2 pixel, vec2 offset) {
     vec2 from_centre = vec2(pixel) - 0.5 * (vec2(extent) - 1.0) + offset;
@@ -29,8 +29,8 @@ vec2 view_plane_point(Camera camera, uvec2 extent, uvec2 pixel, vec2 offset) {
 // The primary ray of the film point q and the lens point l (unit disk).
 //
 // The centre ray runs from the lens centre through q and meets the focal plane at
-// p = (F q.x, F q.y, -F). The primary ray runs from l to p, along (p - l) / F. With a lens radius
-// of zero nothing here depends on F.
+// p = (F q.x, F q.y, -F). The primary ray runs from l to p, along (p - l) / F. If the lens radius
+// is zero, the ray does not depend on F.
 Ray primary_ray(Camera camera, vec2 q, vec2 disk) {
     vec2 l = camera.lens_radius * disk;
     vec2 slope = q - l * camera.inverse_focal_distance;

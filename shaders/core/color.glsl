@@ -1,4 +1,4 @@
-// From linear radiance to what a file or a screen holds.
+// Encodes linear radiance for files and screens.
 
 #ifndef COLOR_GLSL
 #define COLOR_GLSL

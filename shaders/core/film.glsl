@@ -1,4 +1,4 @@
-// The film: a texel holds the running mean of r, g, b and the count of samples in it.
+// The film: a texel holds the running mean of r, g, b and the number of samples in the mean.
 
 #ifndef FILM_GLSL
 #define FILM_GLSL
@@ -6,21 +6,22 @@
 #include "interface.glsl"
 
 // The pixels that a dispatch covers: origin + stride * (x, y), inside extent. A stride above one is the
-// interleaved preview. Rows of workgroups are visited row_step apart, round and round, so that a part of them is like
-// the whole picture.
+// interleaved preview. Rows of workgroups are visited row_step apart, modulo row_count, so that the rows visited first
+// are spread over the whole picture.
 struct Lattice {
     uvec2 extent;
     uvec2 origin;
     uint stride;
-    uint first_row; // of workgroups, in the order of the visits
+    uint first_row; // the first row of workgroups, in the order of the visits
     uint row_step; // shares no divisor with row_count
     uint row_count;
 };
 
-// The row of workgroups that is visited as the one of this number.
+// The row of workgroups that is visited after `number` others.
 uint visited_row(Lattice lattice, uint number) {
     uint product = number * lattice.row_step;
-    // The remainder, by way of floats: a software device divides integers one by one. The quotient may be off by one.
+    // The remainder is computed with floats, because a software device divides integers one lane at a time. The
+    // quotient may be off by one.
     int rest = int(product - lattice.row_count * uint(float(product) / float(lattice.row_count)));
     rest += rest < 0 ? int(lattice.row_count) : 0;
     return uint(rest) - (rest >= int(lattice.row_count) ? lattice.row_count : 0u);
@@ -34,15 +35,15 @@ bool inside(uvec2 pixel, uvec2 extent) {
     return pixel.x < extent.x && pixel.y < extent.y;
 }
 
-// Merges the mean of batch.w samples into a mean of film.w samples. At a count of zero the film's
-// colours may hold anything, so they are replaced rather than multiplied by zero.
+// Merges the mean of batch.w samples into a mean of film.w samples. If a count is zero, the colours with it may be
+// anything, so they are replaced rather than multiplied by zero.
 vec4 merge(vec4 film, vec4 batch) {
     float count = film.w + batch.w;
     vec3 merged = film.rgb + (batch.rgb - film.rgb) * (batch.w / count);
     return vec4(film.w == 0.0 ? batch.rgb : batch.w == 0.0 ? film.rgb : merged, count);
 }
 
-// By the bits: a driver may assume that there are no infinities and no NaNs.
+// This tests the bits, because a driver may assume that there are no infinities and no NaNs.
 bool is_finite(vec3 value) {
     return all(notEqual(floatBitsToUint(value) & 0x7f800000u, uvec3(0x7f800000u)));
 }

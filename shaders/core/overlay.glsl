@@ -1,32 +1,32 @@
-// What can be shown instead of the picture, or on it. Colours are linear.
+// Overlays, which are shown instead of the picture or drawn on it. Colours are linear.
 
 #ifndef OVERLAY_GLSL
 #define OVERLAY_GLSL
 
 #include "interface.glsl"
 
-// How far from the focal plane a point still counts as in it, as a share of its distance.
+// How far from the focal plane a point may lie and still count as in it, relative to the focal distance.
 const float SLICE_HALF_WIDTH = 0.006;
 
 struct OverlayScale {
     uint kind;
-    float full_scale; // of samples, of the error, or of the circle of confusion in pixels
+    float full_scale; // the value at the end of the colour scale; for focus peaking, the largest blur that is sharp
     float blur; // the diameter of the lens times k, in pixels times scene units
-    float inverse_image_distance; // of the focal plane; of a hole -1 / v
+    float inverse_image_distance; // 1 / F; for a hole -1 / v
     float inverse_focal_distance;
 };
 
-// In pixels: D k (1 / F - 1 / z). Behind the focal plane it is positive.
+// The diameter of the circle of confusion in pixels: D k (1 / F - 1 / z). It is positive behind the focal plane.
 float circle_of_confusion(OverlayScale scale, float depth) {
     return scale.blur * (scale.inverse_image_distance - 1.0 / depth);
 }
 
-// From black over red and yellow to white.
+// A colour scale from black over red and yellow to white.
 vec3 heat(float share) {
     return clamp(vec3(3.0 * share, 3.0 * share - 1.0, 3.0 * share - 2.0), 0.0, 1.0);
 }
 
-// surface: the normal that the pixel's middle sees, in the camera's frame, and the depth.
+// surface is the normal at the point that the pixel's centre sees, in the camera's frame, and in w the depth.
 vec3 overlay_color(OverlayScale scale, vec3 picture, float count, float error, vec4 surface) {
     float depth = surface.w;
     switch (scale.kind) {

@@ -1,4 +1,4 @@
-// Rays, and what is counted for each.
+// Rays, and the arithmetic that every intersection needs.
 
 #ifndef RAY_GLSL
 #define RAY_GLSL
@@ -10,14 +10,15 @@ struct Ray {
     vec3 direction; // unit length
 };
 
-// Of the sample that is traced: seconds from the middle of the exposure, where the shapes are as given.
+// The time of the sample that is traced, in seconds from the middle of the exposure, when the shapes are where the
+// scene has them.
 float ray_time = 0.0;
 
-// Not min() and max(): what those must do with a NaN costs a software device three instructions more.
+// These replace min() and max(), whose rules for NaNs cost a software device three more instructions.
 float smaller(float a, float b) { return a < b ? a : b; }
 float larger(float a, float b) { return a > b ? a : b; }
 
-// 1 / direction with zero components replaced, so that no distance to a plane across an axis is 0 * infinity.
+// 1 / direction with zero components replaced, so that no distance to an axis-aligned plane is 0 * infinity.
 vec3 safe_inverse(vec3 direction) {
     vec3 tiny = mix(vec3(-1e-20), vec3(1e-20), greaterThanEqual(direction, vec3(0.0)));
     return 1.0 / mix(direction, tiny, lessThan(abs(direction), vec3(1e-20)));

@@ -1,4 +1,4 @@
-// Sample values and the maps that shape them.
+// Sample values, and the maps from the unit square to the film and the lens.
 //
 // A value depends on (sampler, seed, pixel, sample index, dimension) alone, so any sample can be
 // computed again, anywhere, in any order. Four dimensions come from one call.
@@ -11,18 +11,19 @@
 
 layout(constant_id = ID_SAMPLER) const uint SAMPLER = SAMPLER_RANDOM;
 
-// The tile of examples/blue_noise_tile.rs: a number of 16 bits a pixel, row by row, eight a texel.
+// The tile of examples/blue_noise_tile.rs: a number of 16 bits for each pixel, row by row, eight numbers in a texel.
 layout(set = 0, binding = BINDING_BLUE_NOISE_TILE) uniform utextureBuffer blue_noise_tile;
 const uint TILE = 128u;
 const uvec4 BLUE_NOISE_SCRAMBLE = uvec4(0x0e7ef62eu, 0xeec210f3u, 0xbced7d2au, 0x84af394du);
 
 // Dimension blocks. FILM_AND_LENS holds the film jitter in xy and the lens point in zw.
 const uint BLOCK_FILM_AND_LENS = 0u;
-const uint BLOCK_TIME = 1u; // in x when the light passes the shutter
-// From there on, each bounce has a block for each use: its numbers stay whatever uses there are before it.
+const uint BLOCK_TIME = 1u; // when the light passes the shutter, in x
+// From this block on, each bounce has a block for each use. So a use has the same values whether or not the uses before
+// it take theirs.
 const uint BLOCK_FIRST_BOUNCE = 2u;
-const uint USE_LIGHT = 0u; // which light, and where on it
-const uint USE_DIRECTION = 1u; // where the ray goes on, and whether
+const uint USE_LIGHT = 0u; // which light, and which point of the light
+const uint USE_DIRECTION = 1u; // whether the ray goes on, and in which direction
 const uint USES = 2u;
 
 // The pcg4d hash: M. Jarzynski and M. Olano, "Hash Functions for GPU Rendering",
@@ -41,13 +42,14 @@ uvec4 pcg4d(uvec4 v) {
     return v;
 }
 
-// The lower half of the hash's bits is its worse one, and decides what comes first of what is made of it.
+// Folds the upper half of the hash's bits into the lower half. The lower bits of pcg4d are its weaker ones, but they
+// decide the leading bits of the samples.
 uvec4 folded(uvec4 hash) {
     return hash ^ (hash >> 16u);
 }
 
-// The mask that the blue-noise tile has for a pixel, with the seed's. A seed shifts the tile too, by
-// bits that the mask leaves unused.
+// The mask of a pixel, which combines a hash of its number in the blue-noise tile with a hash of the seed. The seed
+// also shifts the tile, by bits that the mask does not use.
 uvec4 blue_noise_mask(uint seed, uvec2 pixel, uint block) {
     uvec4 shift = folded(pcg4d(uvec4(0u, 0u, block, seed)));
     uvec2 at = (pixel + shift.xy) & (TILE - 1u);
@@ -57,7 +59,7 @@ uvec4 blue_noise_mask(uint seed, uvec2 pixel, uint block) {
     return shift ^ folded(pcg4d(uvec4(number, 0u, 0u, 0u)));
 }
 
-// What all samples of a pixel have in common.
+// The keys that all samples of a pixel share.
 uvec4 sample_keys(uint seed, uvec2 pixel, uint block) {
     switch (SAMPLER) {
     case SAMPLER_BLUE_NOISE:
@@ -85,13 +87,14 @@ vec4 sample_values(uvec4 keys, uint sample_index) {
     return vec4(bits >> 8u) * (1.0 / 16777216.0);
 }
 
-// The index of a sample in another order of the sequence, so that what comes of it has nothing to do with what comes of
-// the index itself: B. Burley, as above, section 4. Every 2^k indices from a multiple of 2^k on stay together.
+// The index of a sample in another order of the sequence, so that its point is independent of the one that the index
+// itself has: B. Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020, section 4. Each run of 2^k indices
+// that starts at a multiple of 2^k stays together.
 uint shuffled_index(uint sample_index, uint order) {
     return bitfieldReverse(scramble_upwards(uvec4(bitfieldReverse(sample_index)), uvec4(order)).x);
 }
 
-// A value in [0, 1) for the time: the points of the sequence's first dimension, in an order of its own.
+// A value in [0, 1) for the time. The values are the points of the sequence's first dimension, in their own order.
 float time_value(uvec4 keys, uint sample_index) {
     if (SAMPLER == SAMPLER_RANDOM) {
         return sample_values(keys, sample_index).x;
@@ -104,16 +107,16 @@ float time_value(uvec4 keys, uint sample_index) {
     return float(bits >> 8u) * (1.0 / 16777216.0);
 }
 
-// The sample values of a path, for what is decided after the camera.
+// Identifies the sample values that a path takes after it has left the camera.
 struct PathSampler {
     uint seed;
     uvec2 pixel;
     uint sample_index;
 };
 
-// Four values in [0, 1) for a use at a bounce. Each block has the points in an order of its own: in the same order, which
-// half of its range a value of one block lies in would say the same of another's. With blue noise, all pixels have one
-// order, as they have one sequence.
+// Four values in [0, 1) for a use at a bounce. Each block has the points in its own order. If blocks shared an order,
+// their values would be correlated: the half of [0, 1) that a value of one block lies in would determine the half for
+// another block. With blue noise, all pixels share one order, as they share one sequence.
 vec4 path_values(PathSampler path, uint bounce, uint use) {
     uint block = BLOCK_FIRST_BOUNCE + USES * bounce + use;
     uvec4 keys = sample_keys(path.seed, path.pixel, block);
@@ -124,14 +127,14 @@ vec4 path_values(PathSampler path, uint bounce, uint use) {
     return sample_values(keys, shuffled_index(path.sample_index, order) & 0xffffffu);
 }
 
-// Where on the film a sample falls, in pixels from its start pixel's centre, x right and y down,
-// for a jitter of that many pixels across.
+// The film position of a sample, in pixels from its start pixel's centre, x right and y down. The positions fill a
+// square whose side is jitter pixels.
 vec2 film_offset(vec2 xi, float jitter) {
     return (xi - 0.5) * jitter;
 }
 
-// The pixel that such a sample lands in, relative to its start pixel. Only the offset is rounded:
-// the floor of an absolute f32 position would move samples next to a pixel's edge.
+// The pixel that a sample with this offset lands in, relative to its start pixel. Only the offset is rounded: the floor
+// of an absolute f32 position would move some samples across a pixel's edge.
 ivec2 landing_step(vec2 offset) {
     return ivec2(floor(offset + 0.5));
 }

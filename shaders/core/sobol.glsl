@@ -3,8 +3,8 @@
 #ifndef SOBOL_GLSL
 #define SOBOL_GLSL
 
-// Flips each bit depending on the bits below it, as a hash of them and the key decides: an Owen
-// scramble of the bits in reverse. S. Laine and T. Karras, "Stratified Sampling for Stochastic
+// Flips each bit or not, as a hash of the key and the bits below it decides. For bits in reverse order this is an Owen
+// scramble. S. Laine and T. Karras, "Stratified Sampling for Stochastic
 // Transparency", EGSR 2011, with the constants of N. Vegdahl, "Building a Better LK Hash", 2021.
 uvec4 scramble_upwards(uvec4 bits, uvec4 key) {
     bits ^= bits * 0x3d20adeau;
@@ -26,10 +26,10 @@ uint sobol_second_reversed(uint index) {
     return index;
 }
 
-// The direction numbers of its third and fourth dimension, bits in reverse, for the 24 bits that an
-// index has: the polynomials of S. Joe and F. Kuo, "Constructing Sobol Sequences with Better
-// Two-dimensional Projections", SIAM J. Sci. Comput. 30(5), 2008, but for the fourth the initial numbers
-// 1, 1, 3, with which the first eight points of the pair are a net too.
+// The direction numbers of the Sobol sequence's third and fourth dimension, bits in reverse, for the 24 bits of an
+// index. The polynomials and initial numbers are those of S. Joe and F. Kuo, "Constructing Sobol Sequences with Better
+// Two-dimensional Projections", SIAM J. Sci. Comput. 30(5), 2008, except that the fourth dimension has the initial
+// numbers 1, 1, 3. With these, the first eight points of the two dimensions are a net too.
 const uvec2 SOBOL_THIRD_AND_FOURTH_REVERSED[24] = uvec2[24](
     uvec2(0x000001u, 0x000001u), uvec2(0x000003u, 0x000002u), uvec2(0x000006u, 0x000006u),
     uvec2(0x000009u, 0x00000bu), uvec2(0x000017u, 0x000014u), uvec2(0x00003au, 0x00003du),
@@ -49,10 +49,10 @@ uvec2 sobol_third_and_fourth_reversed(uint index) {
     return sum;
 }
 
-// The first four dimensions of the Sobol sequence, each Owen-scrambled by a key of its own: B. Burley,
-// "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020. The first in reverse is the index. Film and
-// lens share a point of four dimensions, and are no two padded pairs: what a blurred edge shows
-// depends on both at once. The lens has the first two, whose points lie best in the plane.
+// The first four dimensions of the Sobol sequence, each Owen-scrambled with its own key: B. Burley, "Practical
+// Hash-based Owen Scrambling", JCGT 9(4), 2020. The first dimension with its bits in reverse is the index. Film and
+// lens take one point of four dimensions instead of two padded pairs, because a blurred edge depends on both at once.
+// The lens takes the first two dimensions, whose points are the best distributed pair.
 uvec4 sobol_film_and_lens(uint index, uvec4 keys) {
     uvec4 reversed = uvec4(sobol_third_and_fourth_reversed(index), index, sobol_second_reversed(index));
     return bitfieldReverse(scramble_upwards(reversed, keys));

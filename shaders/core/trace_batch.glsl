@@ -17,17 +17,17 @@ struct TracePush {
     uint sample_count; // at least one
 };
 
-// To be copied first thing in main(), for the same reason as the scene (see keep_scene).
+// These must be copied at the start of main(), for the same reason as the scene: see keep_scene.
 layout(push_constant, std430) uniform TraceConstants { TracePush push_constants; };
 
 layout(set = 0, binding = BINDING_COUNTERS, std430) buffer Counters {
     uint rays;
     uint rejected_samples;
-    uint listed_samples; // traced for pixels of the list, whose number the host does not know
+    uint listed_samples; // samples traced for the list of active pixels, whose length the host does not know
 } counters;
 
-// The mean of the samples first_sample .. first_sample + sample_count of the pixel, and in w how
-// many of them were finite. moment: that of their luminance, in an adaptive picture.
+// The mean of the samples first_sample .. first_sample + sample_count of the pixel, and in w how many of them were
+// finite. moment is the second moment of their luminance, if the film has moments.
 vec4 trace_batch(TracePush push, uvec2 pixel, out float moment) {
     vec4 batch = vec4(0.0);
     moment = 0.0;

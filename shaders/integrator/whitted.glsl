@@ -1,4 +1,4 @@
-// The radiance along a ray after T. Whitted: the light of lamps, with hard shadows, ambient light, and mirrors. Suffern,
+// The radiance along a ray after T. Whitted: direct light with hard shadows, ambient light, and mirrors. Suffern,
 // chapters 14 to 16 and 24.
 
 #ifndef WHITTED_GLSL
@@ -8,7 +8,7 @@
 #include "light/light.glsl"
 #include "material/material.glsl"
 
-// What a light adds at a point.
+// The radiance of one light that the surface reflects towards the viewer.
 vec3 reflected_light(Material material, vec3 color, Light light, bool casts_shadows, SurfacePoint at, vec3 to_viewer, inout uint rays, inout bool given_up) {
     LightSample arriving = light_sample(light, at.position);
     float cosine = dot(at.shading_normal, arriving.direction);
@@ -17,21 +17,21 @@ vec3 reflected_light(Material material, vec3 color, Light light, bool casts_shad
     }
     if (casts_shadows) {
         ++rays;
-        if (occluded(Ray(at.lifted, arriving.direction), arriving.distance, given_up)) {
+        if (occluded(Ray(at.offset_position, arriving.direction), arriving.distance, given_up)) {
             return vec3(0.0);
         }
     }
     return material_f(material, color, at, arriving.direction, to_viewer) * arriving.radiance * cosine;
 }
 
-// Emission, ambient, and direct light with hard shadows.
+// The radiance that the surface emits, and that it reflects of the ambient light and of all lights.
 vec3 shade(Material material, vec3 color, SurfacePoint at, vec3 to_viewer, inout uint rays, inout bool given_up) {
     vec3 sum = material_emission(material, color) + material_ambient(material, color) * get_environment().ambient;
     if (material.kd == 0.0 && material.ks == 0.0) {
         return sum;
     }
-    // Loops end at their foot. At their head, Mesa's software device would go through them once more than
-    // needed: it looks whether any invocation goes on at the foot alone.
+    // This loop tests its condition at the end. If it did so at the start, Mesa's software device would run it once
+    // more than needed, because that device checks only at the end whether any invocation goes on.
     uint lights = SHADOW_LIGHT_COUNT;
     if (lights > 0u) {
         uint i = 0u;
@@ -45,9 +45,9 @@ vec3 shade(Material material, vec3 color, SurfacePoint at, vec3 to_viewer, inout
     return sum;
 }
 
-// The radiance that arrives along the ray: what the surface shows, plus its mirror image, followed
-// for at most max_bounces reflections. rays counts every ray traced, shadow rays among them. given_up: a search
-// took too long, and the radiance is of no use. Nothing here is left to chance, so path is not asked.
+// The radiance that arrives along the ray: the radiance of the surface, plus that of its mirror image, followed for at
+// most max_bounces reflections. rays counts every ray traced, including shadow rays. given_up is true if a search took
+// too long; the radiance is then of no use. This integrator makes no random decisions, so it takes no values of path.
 vec3 radiance(Ray ray, PathSampler path, uint max_bounces, inout uint rays, out bool given_up) {
     vec3 sum = vec3(0.0);
     vec3 throughput = vec3(1.0);
@@ -61,7 +61,7 @@ vec3 radiance(Ray ray, PathSampler path, uint max_bounces, inout uint rays, out 
             break;
         }
         SurfacePoint at = surface_point(ray, hit);
-        turn_sides(at, ray.direction);
+        face_forward(at, ray.direction);
         Material material = get_material(hit.material);
         vec3 color = texture_value(material.color, at);
         sum += throughput * shade(material, color, at, -ray.direction, rays, given_up);
@@ -70,7 +70,7 @@ vec3 radiance(Ray ray, PathSampler path, uint max_bounces, inout uint rays, out 
         if (throughput == vec3(0.0)) {
             break;
         }
-        ray = Ray(at.lifted, scatter.direction);
+        ray = Ray(at.offset_position, scatter.direction);
     } while (++bounce <= max_bounces);
     return sum;
 }

@@ -1,4 +1,4 @@
-// The sky: a gradient from the horizon up.
+// The sky: a gradient from the horizon to the zenith.
 
 #ifndef BACKGROUND_GLSL
 #define BACKGROUND_GLSL
@@ -7,7 +7,7 @@
 
 vec3 background_radiance(vec3 direction) {
     float height = clamp(direction.y, 0.0, 1.0);
-    // Not mix(): of two equal colours this makes exactly that colour.
+    // Unlike mix(), this returns exactly the same colour if both colours are equal.
     Environment sky = get_environment();
     return sky.horizon + (sky.zenith - sky.horizon) * (height * (2.0 - height));
 }

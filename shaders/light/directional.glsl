@@ -1,4 +1,4 @@
-// Light along parallel lines, from beyond everything.
+// Light along parallel lines, from a source that is farther away than every shape.
 
 #ifndef DIRECTIONAL_GLSL
 #define DIRECTIONAL_GLSL

@@ -1,11 +1,11 @@
-// Where light comes from. A kind is a file beside this one: see record.glsl.
+// Lights. Each kind is a file beside this one: see record.glsl.
 
 #ifndef LIGHT_GLSL
 #define LIGHT_GLSL
 
 #include "light/kinds.glsl"
 
-// What arrives from a light at a point.
+// The light that arrives from a light source at a point.
 LightSample light_sample(Light light, vec3 from) {
     LightSample value = LightSample(vec3(0.0), 0.0, vec3(0.0));
 #define SAMPLE_LIGHT(KIND, kind_) \
@@ -16,7 +16,7 @@ LightSample light_sample(Light light, vec3 from) {
     return value;
 }
 
-// What a ray sees that meets nothing.
+// The radiance along a ray that meets no surface.
 vec3 background(vec3 direction) {
     vec3 sum = vec3(0.0);
 #define ADD_BACKGROUND(KIND, kind_) sum += kind_##_radiance(direction);

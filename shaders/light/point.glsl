@@ -1,4 +1,4 @@
-// Light from a point, which does not weaken with distance.
+// Light from a point. It does not weaken with distance.
 
 #ifndef POINT_GLSL
 #define POINT_GLSL

@@ -1,26 +1,26 @@
-// What every kind of light has in common. A kind is a file beside this one with one of these functions:
+// What every kind of light has in common. Each kind is a file beside this one with one of these functions:
 //
 //   LightSample KIND_sample(Light light, vec3 from)
-//       What arrives from the light at a point.
+//       The light that arrives at the point `from`.
 //   vec3 KIND_radiance(vec3 direction)
-//       What a ray sees that meets nothing.
+//       The radiance along a ray that meets no surface.
 
 #ifndef LIGHT_RECORD_GLSL
 #define LIGHT_RECORD_GLSL
 
 #include "interface.glsl"
 
-// A light as it lies in its buffer.
+// The record of a light in the buffer of lights.
 struct Light {
     vec3 radiance;
     uint kind;
-    vec3 position_or_direction; // up to the kind
+    vec3 position_or_direction; // as the kind defines it
 };
 
-// What arrives from a light at a point.
+// The light that arrives from a light source at a point.
 struct LightSample {
     vec3 direction; // to the light, of unit length
-    float distance; // what lies nearer can keep it off
+    float distance; // shapes that are nearer can cast a shadow
     vec3 radiance;
 };
 
@@ -28,10 +28,10 @@ struct Environment {
     vec3 horizon;
     vec3 zenith;
     vec3 ambient; // radiance
-    float reach; // every shape but planes lies within this distance of the origin, at any time
+    float bounding_radius; // every shape but planes lies within this distance of the origin, at any time
 };
 
-// The kinds of lights in the buffer, a bit each: what is for others is left out.
+// The kinds of lights in the buffer, a bit for each: the code for all other kinds is left out.
 layout(constant_id = ID_LIGHT_KINDS) const uint LIGHT_KINDS = 0u;
 
 #endif

@@ -1,4 +1,4 @@
-// Gives off light, its color.
+// Emits light of the material's color.
 
 #ifndef EMISSIVE_GLSL
 #define EMISSIVE_GLSL

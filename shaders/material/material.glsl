@@ -1,4 +1,4 @@
-// What surfaces do with light. A kind of material is a file beside this one: see record.glsl.
+// Materials, which say what surfaces do with light. Each kind is a file beside this one: see record.glsl.
 
 #ifndef MATERIAL_GLSL
 #define MATERIAL_GLSL
@@ -6,13 +6,13 @@
 #include "material/kinds.glsl"
 #include "texture/texture.glsl"
 
-// What the sides of a surface mean: nothing. Every material looks the same from both, so the normals are turned to the
-// side that the ray comes from, and so is what goes on from there.
-void turn_sides(inout SurfacePoint at, vec3 direction) {
+// Every material looks the same from both sides of a surface. So this turns the normals to the side that the ray comes
+// from, and puts the origin of further rays on that side.
+void face_forward(inout SurfacePoint at, vec3 direction) {
     bool from_behind = dot(at.normal, direction) > 0.0;
     at.normal = from_behind ? -at.normal : at.normal;
     at.shading_normal = from_behind ? -at.shading_normal : at.shading_normal;
-    at.lifted = at.position + at.error * at.normal;
+    at.offset_position = at.position + at.error * at.normal;
 }
 
 #define IF_MATERIAL(KIND) if (is_of_kind(MATERIAL_KINDS, material.kind, MATERIAL_##KIND))
@@ -38,7 +38,7 @@ vec3 material_f(Material material, vec3 color, SurfacePoint at, vec3 to_light, v
     return value;
 }
 
-// With a weight of zero for those that scatter nothing.
+// The weight is zero if the material scatters no light in a single direction.
 Scatter material_sample(Material material, vec3 color, SurfacePoint at, vec3 direction) {
     Scatter value = Scatter(vec3(0.0), vec3(0.0));
 #define SAMPLE(KIND, kind_) IF_MATERIAL(KIND) { value = kind_##_sample(material, color, at, direction); }

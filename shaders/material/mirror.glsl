@@ -1,4 +1,4 @@
-// Mirrors, by as much as its color is, and may show highlights of the lights.
+// A mirror, whose reflectance is the material's color. It may also show highlights of the lights.
 
 #ifndef MIRROR_GLSL
 #define MIRROR_GLSL
@@ -11,7 +11,7 @@ vec3 mirror_f(Material material, vec3 color, SurfacePoint at, vec3 to_light, vec
 
 Scatter mirror_sample(Material material, vec3 color, SurfacePoint at, vec3 direction) {
     vec3 mirrored = reflect(direction, at.shading_normal);
-    // What would enter the surface is mirrored out of it again.
+    // A direction that would enter the surface is mirrored out of the surface again.
     mirrored -= 2.0 * smaller(dot(mirrored, at.normal), 0.0) * at.normal;
     return Scatter(mirrored, color);
 }

@@ -1,4 +1,4 @@
-// Matte, with a highlight around the direction of the mirrored light.
+// A matte material with a highlight around the direction of the mirrored light.
 
 #ifndef PHONG_GLSL
 #define PHONG_GLSL

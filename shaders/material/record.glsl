@@ -1,38 +1,40 @@
-// What every kind of material has in common. A kind is a file beside this one with those of these functions that it needs:
+// What every kind of material has in common. Each kind is a file beside this one, with the functions that it needs out
+// of these:
 //
 //   vec3 KIND_emission(Material material, vec3 color)
-//       The radiance that it gives off by itself, into every direction.
+//       The radiance that the material emits, the same in every direction.
 //   vec3 KIND_ambient(Material material, vec3 color)
-//       The share of the ambient light that it reflects.
+//       The share of the ambient light that the material reflects.
 //   vec3 KIND_f(Material material, vec3 color, SurfacePoint at, vec3 to_light, vec3 to_viewer)
-//       The share of a light's radiance, by the cosine, that it reflects towards the viewer.
+//       The BRDF: the radiance reflected towards the viewer, divided by the light's radiance and by the cosine.
 //   Scatter KIND_sample(Material material, vec3 color, SurfacePoint at, vec3 direction)
-//       The one direction from which it shows what arrives there, for a ray of this direction that meets it.
+//       The direction in which a ray with this direction goes on after it has met the material.
 //
-// color is the material's texture at this point, and the normals at it are as turn_sides has turned them.
+// color is the value of the material's texture at the point. face_forward() has turned the normals at the point.
 
 #ifndef MATERIAL_RECORD_GLSL
 #define MATERIAL_RECORD_GLSL
 
 #include "texture/record.glsl"
 
-// A material as it lies in its buffer. What the numbers mean is up to the kind; one without f has zero for kd and ks.
+// The record of a material in the buffer of materials. The kind defines what the numbers mean. Where a kind has no
+// function f, kd and ks are zero.
 struct Material {
     Texture color;
     float ka; // ambient reflection
     float kd; // diffuse reflection
     float ks; // specular reflection
-    float exponent; // of the highlight
+    float exponent; // the exponent of the highlight
     uint kind;
 };
 
-// Where a ray goes on, and by how much what arrives from there counts.
+// The direction in which a ray goes on, and the weight of the radiance that arrives from there.
 struct Scatter {
     vec3 direction;
     vec3 weight;
 };
 
-// The kinds of materials there are, a bit each: what is for others is left out.
+// The kinds of materials in the scene, a bit for each: the code for all other kinds is left out.
 layout(constant_id = ID_MATERIAL_KINDS) const uint MATERIAL_KINDS = 0u;
 
 #endif

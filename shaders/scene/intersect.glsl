@@ -1,4 +1,4 @@
-// Ray against scene. Distances are along unit directions, in scene units.
+// Intersects rays with the scene. Distances are along unit directions, in scene units.
 
 #ifndef INTERSECT_GLSL
 #define INTERSECT_GLSL
@@ -13,13 +13,13 @@ struct Nearest {
 
 // What a ray meets first.
 struct Hit {
-    float distance; // MISS where that is nothing; the rest means nothing then
+    float distance; // MISS if the ray meets nothing; the other members are meaningless then
     uint material;
     Surface surface;
-    vec3 displacement; // of the shape from where it is in the middle of the exposure
+    vec3 displacement; // how far the shape is from where it is in the middle of the exposure
 };
 
-// Moves a bounded shape. What is no shape at all is left as it is.
+// Moves a bounded shape. Records that are no bounded shapes stay as they are.
 void move_shape(inout ShapeRecord shape, vec3 displacement) {
 #define MOVE(KIND, kind_) \
     if (has_kind(SHAPE_KINDS, SHAPE_##KIND)) { \
@@ -32,7 +32,7 @@ void move_shape(inout ShapeRecord shape, vec3 displacement) {
     FOR_EACH_BOUNDED_KIND(MOVE)
 }
 
-// A shape where it is by now, and how far it has come.
+// The shape where it is at the time of the ray, and its displacement since the middle of the exposure.
 ShapeRecord shape_now(ShapeRecord shape, out vec3 displacement) {
     displacement = vec3(0.0);
     if (SCENE_MOVES == 1u) {
@@ -45,7 +45,7 @@ ShapeRecord shape_now(ShapeRecord shape, out vec3 displacement) {
 #include "scene/bvh.glsl"
 #include "scene/list.glsl"
 
-// The hit of a shape whose record is fetched. ray is the one that the shape was found for.
+// Fetches the record of the nearest shape and makes the hit. ray must be the ray that found the shape.
 Hit hit_by_fetching(Ray ray, vec3 inverse_direction, Nearest nearest, vec3 position) {
     vec3 displacement;
     ShapeRecord shape = shape_now(fetch_shape(nearest.record), displacement);
@@ -61,22 +61,23 @@ Hit hit_by_fetching(Ray ray, vec3 inverse_direction, Nearest nearest, vec3 posit
     return Hit(nearest.distance, shape.material, surface, displacement);
 }
 
-// How far the ray can go before it meets any bounded shape. What intersecting a shape loses to rounding grows
-// with the distance, and lets rays from far away through between the triangles of a mesh: so they start there.
-float way_to_shapes(Ray ray) {
+// A distance that the ray can go before it meets any bounded shape: where it enters the scene's bounding sphere, or a
+// little earlier. The rounding errors of an intersection grow with the distance. They would let rays from far away pass
+// between the triangles of a mesh, so rays start at this distance.
+float scene_entry_distance(Ray ray) {
     if (!has_tree()) {
         return 0.0;
     }
-    float to_middle = -dot(ray.origin, ray.direction);
+    float to_closest = -dot(ray.origin, ray.direction);
     // The rounding error of the dot product is below a millionth.
-    return larger(to_middle * (1.0 - 1e-6) - get_environment().reach, 0.0);
+    return larger(to_closest * (1.0 - 1e-6) - get_environment().bounding_radius, 0.0);
 }
 
-// The nearest hit, or one with distance MISS. given_up: the search for it took too long.
+// The nearest hit, or one with distance MISS. given_up becomes true if the search took too long.
 Hit intersect_scene(Ray from, inout bool given_up) {
     Nearest nearest = Nearest(MISS, 0u);
     vec3 inverse_direction = safe_inverse(from.direction);
-    float start = way_to_shapes(from);
+    float start = scene_entry_distance(from);
     Ray ray = Ray(from.origin + start * from.direction, from.direction);
     if (has_tree()) {
         nearest.distance = search_tree(ray, inverse_direction, MISS, false, nearest.record, given_up);
@@ -91,18 +92,18 @@ Hit intersect_scene(Ray from, inout bool given_up) {
     return hit_by_fetching(ray, inverse_direction, nearest, position);
 }
 
-// What f32 may lose of a point of a surface, across it, and of an intersection that starts there, as a share of
-// the coordinates: sums of up to six products, each rounded by 2^-24.
+// An upper bound for the rounding errors of a point on a surface, along the normal, and of an intersection whose ray
+// starts there, relative to the coordinates: f32 sums up to six products, and rounds each by 2^-24.
 const float ROUNDING = 9.5367432e-7; // 16 * 2^-24
 
-// The unit normal of the surface at a hit, on either side. position is where the ray meets it. As far as the
-// ray is long, it may be off; so it is moved onto the surface. After that it is within error of it.
-vec3 settle(Surface surface, inout vec3 position, out float error) {
-    float across_length = length(surface.across);
-    vec3 normal = surface.across / across_length;
+// Moves a hit's position onto the surface, and returns the unit normal there, which may point to either side. The error
+// of position on entry grows with the length of the ray. Afterwards position is within `error` of the surface.
+vec3 project_onto_surface(Surface surface, inout vec3 position, out float error) {
+    float normal_length = length(surface.normal);
+    vec3 normal = surface.normal / normal_length;
     float height = surface.is_curved
-        ? across_length - surface.offset
-        : (dot(surface.across, position) - surface.offset) / across_length;
+        ? normal_length - surface.offset
+        : (dot(surface.normal, position) - surface.offset) / normal_length;
     position -= height * normal;
     vec3 magnitude = abs(position);
     float largest = larger(larger(magnitude.x, magnitude.y), magnitude.z);
@@ -114,7 +115,7 @@ vec3 settle(Surface surface, inout vec3 position, out float error) {
 bool occluded(Ray from, float limit, inout bool given_up) {
     float distance = MISS;
     vec3 inverse_direction = safe_inverse(from.direction);
-    float start = way_to_shapes(from);
+    float start = scene_entry_distance(from);
     Ray ray = Ray(from.origin + start * from.direction, from.direction);
     if (has_tree()) {
         uint shape;

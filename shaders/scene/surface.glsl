@@ -11,22 +11,22 @@ struct SurfacePoint {
     vec3 normal;
     vec3 shading_normal;
     float error; // how far off the surface the position may be
-    vec3 lifted; // the position, moved off the surface by this much
-    vec3 on_shape; // the position where the shape was in the middle of the exposure
+    vec3 offset_position; // the position, moved off the surface by error: where further rays start
+    vec3 rest_position; // the same point of the shape, where it is in the middle of the exposure
 };
 
-// Where the ray meets a surface, with the normals as the shape has them. The material says what its sides mean, and
-// lifts it.
+// The point where the ray meets a surface. The normals point as those of the shape do: face_forward() turns them, and
+// moves offset_position off the surface.
 SurfacePoint surface_point(Ray ray, Hit hit) {
     SurfacePoint at;
     at.position = ray.origin + hit.distance * ray.direction;
-    at.normal = settle(hit.surface, at.position, at.error);
-    at.on_shape = at.position;
+    at.normal = project_onto_surface(hit.surface, at.position, at.error);
+    at.rest_position = at.position;
     if (SCENE_MOVES == 1u) {
-        at.on_shape -= hit.displacement;
+        at.rest_position -= hit.displacement;
     }
     at.shading_normal = hit.surface.shading_normal == vec3(0.0) ? at.normal : hit.surface.shading_normal;
-    at.lifted = at.position;
+    at.offset_position = at.position;
     return at;
 }
 

@@ -1,13 +1,13 @@
-// An axis-aligned box: position is its lower corner, a its upper one. On a face across an axis, u and v go along the
-// next two axes, from 0 to 1.
+// An axis-aligned box: position is its lower corner, a its upper corner. On a face perpendicular to an axis, u and v go
+// along the next two axes, from 0 to 1.
 
 #ifndef BOX_GLSL
 #define BOX_GLSL
 
 #include "shape/record.glsl"
 
-// Where the ray enters and leaves the box's three slabs. Per axis, front is the coordinate of the face that it
-// meets first, and back that of the other one.
+// The distances at which the ray enters and leaves the box's three slabs. For each axis, front is the coordinate of the
+// face that the ray meets first, and back is the coordinate of the other face.
 struct Slabs {
     vec3 front;
     vec3 back;
@@ -35,7 +35,7 @@ float box_distance(Ray ray, vec3 inverse_direction, ShapeRecord box) {
     return slabs.near <= slabs.far && slabs.far > 0.0 ? distance : MISS;
 }
 
-// Of the face that is met, whose normal points outwards along an axis.
+// The face that the ray meets. Its normal points outwards along an axis.
 Surface box_surface(Ray ray, vec3 inverse_direction, ShapeRecord box, vec3 position) {
     Slabs slabs = slabs_of(ray, inverse_direction, box);
     bool outside = slabs.near > 0.0;

@@ -1,22 +1,22 @@
-// The side of a cylinder, open at both ends and seen from inside too: Suffern, chapter 19. position is the middle of its
-// axis, a the axis's unit direction, b.x the radius, b.y half the length. u goes around the axis, v along it, both from
-// 0 to 1.
+// The side of a cylinder, open at both ends and visible from inside too: Suffern, chapter 19. position is the middle of
+// the axis, a the unit direction of the axis, b.x the radius, b.y half the length. u goes around the axis and v along
+// it, both from 0 to 1.
 
 #ifndef CYLINDER_GLSL
 #define CYLINDER_GLSL
 
 #include "shape/record.glsl"
 
-// The part of a vector that is across the axis.
-vec3 across_axis(ShapeRecord cylinder, vec3 vector) {
+// The component of a vector that is perpendicular to the axis.
+vec3 perpendicular_to_axis(ShapeRecord cylinder, vec3 vector) {
     return vector - dot(vector, cylinder.a) * cylinder.a;
 }
 
-// The quadratic of the sphere, in the plane across the axis.
+// The equation is that of the sphere, in the plane perpendicular to the axis.
 float cylinder_distance(Ray ray, vec3 inverse_direction, ShapeRecord cylinder) {
     vec3 to_origin = ray.origin - cylinder.position;
-    vec3 origin = across_axis(cylinder, to_origin);
-    vec3 direction = across_axis(cylinder, ray.direction);
+    vec3 origin = perpendicular_to_axis(cylinder, to_origin);
+    vec3 direction = perpendicular_to_axis(cylinder, ray.direction);
     float squared = dot(direction, direction);
     // A ray along the axis meets nothing.
     float inverse_squared = 1.0 / larger(squared, 1e-12);
@@ -36,11 +36,11 @@ float cylinder_distance(Ray ray, vec3 inverse_direction, ShapeRecord cylinder) {
 
 Surface cylinder_surface(Ray ray, vec3 inverse_direction, ShapeRecord cylinder, vec3 position) {
     vec3 from_middle = position - cylinder.position;
-    vec3 across = across_axis(cylinder, from_middle);
-    vec2 turned = across_normal(cylinder.a, across);
+    vec3 from_axis = perpendicular_to_axis(cylinder, from_middle);
+    vec2 turned = tangent_coordinates(cylinder.a, from_axis);
     float v = 0.5 + 0.5 * dot(from_middle, cylinder.a) / cylinder.b.y;
     vec2 uv = vec2(0.5 + atan(turned.y, turned.x) / 6.28318531, v);
-    return Surface(across, cylinder.b.x, true, cylinder.b.x + cylinder.b.y, vec3(0.0), uv);
+    return Surface(from_axis, cylinder.b.x, true, cylinder.b.x + cylinder.b.y, vec3(0.0), uv);
 }
 
 void move_cylinder(inout ShapeRecord cylinder, vec3 displacement) {

@@ -1,5 +1,5 @@
-// A plane, which has no end and does not move: position is its unit normal, and its points x have
-// dot(position, x) = a.x. u and v are coordinates in the plane, in scene units: see across_normal.
+// An infinite plane, which does not move: position is its unit normal, and its points x fulfil
+// dot(position, x) = a.x. u and v are coordinates in the plane, in scene units: see tangent_coordinates().
 
 #ifndef PLANE_GLSL
 #define PLANE_GLSL
@@ -13,7 +13,7 @@ float plane_distance(Ray ray, vec3 inverse_direction, ShapeRecord plane) {
 }
 
 Surface plane_surface(Ray ray, vec3 inverse_direction, ShapeRecord plane, vec3 position) {
-    return Surface(plane.position, plane.a.x, false, 0.0, vec3(0.0), across_normal(plane.position, position));
+    return Surface(plane.position, plane.a.x, false, 0.0, vec3(0.0), tangent_coordinates(plane.position, position));
 }
 
 #endif

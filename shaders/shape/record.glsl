@@ -1,10 +1,10 @@
-// What every kind of shape has in common. A kind is a file beside this one with two functions:
+// What every kind of shape has in common. Each kind is a file beside this one with two functions:
 //
 //   float KIND_distance(Ray ray, vec3 inverse_direction, ShapeRecord shape)
-//       The distance along the ray to the nearest point of the shape before its origin; MISS if there is none.
-//       inverse_direction is safe_inverse(ray.direction).
+//       The distance along the ray to the nearest point of the shape in front of the ray's origin; MISS if there is
+//       none. inverse_direction is safe_inverse(ray.direction).
 //   Surface KIND_surface(Ray ray, vec3 inverse_direction, ShapeRecord shape, vec3 position)
-//       The surface at that point. The position may be off as far as the ray is long.
+//       The surface at that point. The error of position grows with the length of the ray.
 //
 // A kind that can move also has
 //
@@ -15,32 +15,32 @@
 
 #include "core/ray.glsl"
 
-// A shape as it lies in lists and in the tree. What position, a and b mean is up to the kind.
+// The record of a shape, in the list or in the tree. The kind defines what position, a and b mean.
 struct ShapeRecord {
     vec3 position;
     uint material;
     vec3 a;
     uint kind;
     vec3 b;
-    uint index; // of its velocity, and in the tree of its corner normals
+    uint index; // the index of the velocity and, for shapes of the tree, of the corner normals
 };
 
-// The surface of a shape near a point x of it. Where it is flat, its points have dot(across, x) = offset. Where it is
-// curved, across goes from the centre, or from the nearest point of the axis, to x, and the points of the surface
-// are at the distance offset from there.
+// The surface of a shape near a point x of it. On a flat surface, all points x fulfil dot(normal, x) = offset. On a
+// curved surface, normal goes from the centre of the sphere, or from the nearest point of the cylinder's axis, to x,
+// and offset is the distance of the surface from there.
 struct Surface {
-    vec3 across; // of any length
+    vec3 normal; // of any length
     float offset;
     bool is_curved;
-    float size; // of the numbers that it was computed from, along an axis
-    vec3 shading_normal; // of unit length; zero: the surface's own
-    vec2 uv; // where on the shape: see the kinds
+    float size; // the magnitude of the numbers that the surface was computed from, along an axis
+    vec3 shading_normal; // of unit length; zero if it is the same as the normal
+    vec2 uv; // surface coordinates, as the kind defines them
 };
 
-// The coordinates of a vector along two directions across a unit normal: the world's axes x and z where that points up
-// or down, and turned with it elsewhere. T. Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017,
-// with y upwards.
-vec2 across_normal(vec3 n, vec3 vector) {
+// The coordinates of a vector along two tangents, which are perpendicular to a unit normal. They are the world's axes x
+// and z, turned as the normal is turned from the vertical. T. Duff et al., "Building an Orthonormal Basis, Revisited",
+// JCGT 6(1), 2017, with y upwards.
+vec2 tangent_coordinates(vec3 n, vec3 vector) {
     float up = n.y < 0.0 ? -1.0 : 1.0;
     float a = -1.0 / (up + n.y);
     float b = n.x * n.z * a;

@@ -1,13 +1,13 @@
-// A sphere: position is its centre, a.x its radius. u goes around the y axis from z = 0, x < 0 on, v from the south
-// pole to the north pole, both from 0 to 1.
+// A sphere: position is its centre, a.x its radius. u goes around the y axis, starting where z = 0 and x < 0, and v
+// goes from the south pole to the north pole, both from 0 to 1.
 
 #ifndef SPHERE_GLSL
 #define SPHERE_GLSL
 
 #include "shape/record.glsl"
 
-// The quadratic with the discriminant taken from the closest approach, which keeps its digits for
-// small and far spheres: E. Haines et al., Ray Tracing Gems, chapter 7.
+// The quadratic equation is solved with a discriminant from the point of closest approach, which is precise even for
+// small and distant spheres: E. Haines et al., Ray Tracing Gems, chapter 7.
 float sphere_distance(Ray ray, vec3 inverse_direction, ShapeRecord sphere) {
     float radius = sphere.a.x;
     vec3 to_origin = ray.origin - sphere.position;
@@ -23,9 +23,9 @@ float sphere_distance(Ray ray, vec3 inverse_direction, ShapeRecord sphere) {
 
 Surface sphere_surface(Ray ray, vec3 inverse_direction, ShapeRecord sphere, vec3 position) {
     float radius = sphere.a.x;
-    vec3 across = position - sphere.position;
-    vec2 uv = vec2(0.5 + atan(across.z, across.x) / 6.28318531, 0.5 + asin(clamp(across.y / radius, -1.0, 1.0)) / 3.14159265);
-    return Surface(across, radius, true, radius, vec3(0.0), uv);
+    vec3 from_centre = position - sphere.position;
+    vec2 uv = vec2(0.5 + atan(from_centre.z, from_centre.x) / 6.28318531, 0.5 + asin(clamp(from_centre.y / radius, -1.0, 1.0)) / 3.14159265);
+    return Surface(from_centre, radius, true, radius, vec3(0.0), uv);
 }
 
 void move_sphere(inout ShapeRecord sphere, vec3 displacement) {

@@ -1,19 +1,20 @@
-// A triangle, seen from both sides: position is its first corner, a and b are the edges from there to the second and
-// the third, the first being the one opposite the longest edge. u and v are the barycentric coordinates of the
-// other two.
+// A triangle, visible from both sides: position is its first corner, which is opposite the longest edge. a and b are
+// the edges from there to the second and the third corner. u and v are the barycentric coordinates that belong to
+// these two corners.
 
 #ifndef TRIANGLE_GLSL
 #define TRIANGLE_GLSL
 
 #include "shape/record.glsl"
 
-// Normals of the tree's triangles at their corners, three texels each; zero at each stands for the triangle's own.
+// Normals at the corners of the tree's triangles, three texels for each triangle. Zeros stand for the triangle's own
+// normal.
 layout(set = 0, binding = BINDING_CORNER_NORMALS) uniform usamplerBuffer corner_normals;
 
 // Whether any triangle has such normals.
 layout(constant_id = ID_HAS_CORNER_NORMALS) const uint HAS_CORNER_NORMALS = 0u;
 
-// T. Moeller and B. Trumbore, JGT 2(1), 1997, both sides. barycentric belongs to the second and third corner.
+// T. Moeller and B. Trumbore, JGT 2(1), 1997, for both sides. barycentric belongs to the second and third corner.
 float intersect_triangle(Ray ray, ShapeRecord triangle, out vec2 barycentric) {
     vec3 h = cross(ray.direction, triangle.b);
     float determinant = dot(triangle.a, h);
@@ -24,8 +25,8 @@ float intersect_triangle(Ray ray, ShapeRecord triangle, out vec2 barycentric) {
     float b2 = dot(ray.direction, q) * inverse_determinant;
     float distance = dot(triangle.b, q) * inverse_determinant;
     barycentric = vec2(b1, b2);
-    // A driver may assume that there are no infinities and no NaNs: a ray in the triangle's plane is seen by the
-    // determinant.
+    // A ray in the triangle's plane must be detected by the determinant, because a driver may assume that there are no
+    // infinities and no NaNs.
     return determinant != 0.0 && b1 >= 0.0 && b2 >= 0.0 && b1 + b2 <= 1.0 && distance > 0.0 && distance < MISS ? distance : MISS;
 }
 
@@ -34,8 +35,8 @@ float triangle_distance(Ray ray, vec3 inverse_direction, ShapeRecord triangle) {
     return intersect_triangle(ray, triangle, barycentric);
 }
 
-// The unit normal of a triangle with normals at its corners: straight between them, on the side of the
-// triangle's own, or that one where they cancel out.
+// The unit shading normal of a triangle with normals at its corners. It is interpolated linearly and lies on the same
+// side as the triangle's own normal, which replaces it where the corner normals cancel out.
 vec3 interpolated_normal(uint index, vec2 barycentric, vec3 own) {
     vec3 sum = vec3(0.0);
     vec3 weights = vec3(1.0 - barycentric.x - barycentric.y, barycentric);
@@ -47,17 +48,17 @@ vec3 interpolated_normal(uint index, vec2 barycentric, vec3 own) {
 }
 
 Surface triangle_surface(Ray ray, vec3 inverse_direction, ShapeRecord triangle, vec3 position) {
-    vec3 across = cross(triangle.a, triangle.b);
+    vec3 normal = cross(triangle.a, triangle.b);
     vec3 longest = max(abs(triangle.a), abs(triangle.b));
     float size = larger(longest.x, larger(longest.y, longest.z));
-    float offset = dot(across, triangle.position);
+    float offset = dot(normal, triangle.position);
     vec2 barycentric;
     intersect_triangle(ray, triangle, barycentric);
     vec3 shading_normal = vec3(0.0);
     if (HAS_CORNER_NORMALS == 1u) {
-        shading_normal = interpolated_normal(triangle.index, barycentric, across);
+        shading_normal = interpolated_normal(triangle.index, barycentric, normal);
     }
-    return Surface(across, offset, false, size, shading_normal, barycentric);
+    return Surface(normal, offset, false, size, shading_normal, barycentric);
 }
 
 void move_triangle(inout ShapeRecord triangle, vec3 displacement) {

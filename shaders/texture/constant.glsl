@@ -1,4 +1,4 @@
-// One colour everywhere: color.
+// The same colour everywhere.
 
 #ifndef CONSTANT_GLSL
 #define CONSTANT_GLSL

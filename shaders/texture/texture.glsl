@@ -1,4 +1,4 @@
-// Colours of surfaces. A kind of texture is a file beside this one: see record.glsl.
+// Textures, which are the colours of surfaces. Each kind is a file beside this one: see record.glsl.
 
 #ifndef TEXTURE_GLSL
 #define TEXTURE_GLSL

@@ -1,4 +1,4 @@
-//! Apertures as the shaders want them.
+//! Apertures in the form that the shaders read.
 
 use crate::interface::{MOST_BLADES, aperture, constant};
 use crate::scene::{ApertureImage, ApertureKind, BLADES, Blades, CatsEye};
@@ -11,15 +11,15 @@ use bytemuck::{Pod, Zeroable};
 pub struct Aperture {
     pub stretch: [f32; 2],
     pub blade_count: f32,
-    pub half_blade: f32,
-    pub tangent: f32,
-    pub straight: f32,
-    pub inverse_straight: f32,
-    pub inverse_bent: f32,
-    pub straight_square: f32,
+    pub half_blade_angle: f32,
+    pub tan_half_blade: f32,
+    pub straight_share: f32,
+    pub inverse_straight_share: f32,
+    pub inverse_round_share: f32,
+    pub squared_apothem: f32,
     pub roundness: f32,
-    pub cats_eye: f32,
-    pub most_cats_eye: f32,
+    pub cats_eye_shift: f32,
+    pub max_cats_eye_shift: f32,
     pub cells: [u32; 2],
     pub shutter: f32,
     pub pad0: u32,
@@ -46,7 +46,7 @@ pub fn aperture_constant(estimator: &Estimator) -> (u32, u32) {
 }
 
 impl ApertureBuffer {
-    /// The opening of a picture.
+    /// The aperture of a picture.
     pub fn new(estimator: &Estimator) -> Self {
         let mut stretch = estimator.aperture.stretch();
         let mut shape = Aperture { cells: [1, 1], shutter: estimator.shutter, ..Zeroable::zeroed() };
@@ -58,8 +58,8 @@ impl ApertureBuffer {
                 let [width, height] = estimator.size.map(f64::from);
                 let corner =
                     0.5 * width.hypot(height) / estimator.camera.view_distance_pixels(estimator.size[1]);
-                shape.cats_eye = (2.0 * f64::from(in_corner) / corner) as f32;
-                shape.most_cats_eye = 2.0 * in_corner;
+                shape.cats_eye_shift = (2.0 * f64::from(in_corner) / corner) as f32;
+                shape.max_cats_eye_shift = 2.0 * in_corner;
             }
             ApertureKind::Image(image) => {
                 let [columns, rows] = image.size;
@@ -75,17 +75,17 @@ impl ApertureBuffer {
 
 fn add_blades(shape: &mut Aperture, edges: &mut [[f32; 2]], blades: Blades) {
     let (half, roundness) = (blades.half_angle(), f64::from(blades.roundness));
-    // Areas between a middle and a corner, of the polygon's part and the disc's.
+    // The areas between the middle of an edge and a corner: the polygon's part and the disc's part.
     let polygon = (1.0 - roundness) * half.sin() * half.cos();
     let straight = polygon / (polygon + roundness * half);
     let inverse = |share: f64| if share > 0.0 { share.recip() as f32 } else { 0.0 };
     shape.blade_count = blades.count as f32;
-    shape.half_blade = half as f32;
-    shape.tangent = half.tan() as f32;
-    shape.straight = straight as f32;
-    shape.inverse_straight = inverse(straight);
-    shape.inverse_bent = inverse(1.0 - straight);
-    shape.straight_square = ((1.0 - roundness) * half.cos().powi(2)) as f32;
+    shape.half_blade_angle = half as f32;
+    shape.tan_half_blade = half.tan() as f32;
+    shape.straight_share = straight as f32;
+    shape.inverse_straight_share = inverse(straight);
+    shape.inverse_round_share = inverse(1.0 - straight);
+    shape.squared_apothem = ((1.0 - roundness) * half.cos().powi(2)) as f32;
     shape.roundness = blades.roundness;
     for (blade, edge) in (0..blades.count).zip(edges) {
         let angle = f64::from(blades.rotation_degrees).to_radians() + 2.0 * half * f64::from(blade);
@@ -93,21 +93,21 @@ fn add_blades(shape: &mut Aperture, edges: &mut [[f32; 2]], blades: Blades) {
     }
 }
 
-/// `aperture_sums` of aperture/image.glsl: four a texel.
+/// `aperture_sums` of aperture/image.glsl, four sums in a texel.
 pub fn aperture_sums(image: &ApertureImage) -> Vec<[f32; 4]> {
     let [columns, _] = image.size;
     let rows: Vec<&[f32]> = image.cells.chunks_exact(columns as usize).collect();
     let light_of_rows = rows.iter().map(|row| row.iter().copied().map(f64::from).sum::<f64>());
-    let mut sums = running(light_of_rows);
+    let mut sums = running_sums(light_of_rows);
     for row in rows {
-        sums.extend(running(row.iter().copied().map(f64::from)));
+        sums.extend(running_sums(row.iter().copied().map(f64::from)));
     }
     sums.resize(sums.len().next_multiple_of(4), 1.0);
     sums.chunks_exact(4).map(|four| [four[0], four[1], four[2], four[3]]).collect()
 }
 
-/// From 0 to 1.
-fn running(light: impl Iterator<Item = f64>) -> Vec<f32> {
+/// The running sums of the light, divided by the total, so that they go from 0 to 1.
+fn running_sums(light: impl Iterator<Item = f64>) -> Vec<f32> {
     let mut sum = 0.0;
     let sums: Vec<f64> = std::iter::once(0.0)
         .chain(light.map(|light| {

@@ -1,19 +1,20 @@
-//! How bright what a pixel's rays can meet is: what an adaptive picture reckons with where its samples have not met
-//! it yet. See `shaders/core/adaptive.glsl`.
+//! An upper bound for the luminance that a pixel's rays can meet. An adaptive picture needs the bound where something
+//! bright may have been missed by all samples so far. See `shaders/core/adaptive.glsl`.
 
 use super::Camera;
 use crate::scene::{Frame, Plane, Scene};
 use crate::settings::Estimator;
 use glam::{DVec2, DVec3, Vec3};
 
-/// The luminance of the brightest thing that a pixel's rays can meet, for each cell of a grid over the picture.
+/// An upper bound for the luminance that a pixel's rays can meet, for each cell of a grid over the picture.
 ///
-/// A shape counts in the rectangle that bounds its picture through all points of the opening and at all times,
-/// whatever stands before it; at its brightest, where all lights meet it head-on and its highlight is; and a mirror
-/// as bright as the brightest thing of the scene in it, wherever that is.
+/// A shape counts in the rectangle that bounds its picture, seen through all points of the aperture and at all times,
+/// even if other shapes hide it. It counts with the luminance that it has where all lights shine on it from the front
+/// and its highlight points at the camera. A mirror counts as if it showed the brightest thing of the scene, wherever
+/// that is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Brightest {
-    /// Of each cell, row by row from the top left.
+    /// The bound of each cell, row by row from the top left.
     pub luminances: Vec<f32>,
     /// Width and height of a cell in pixels.
     pub cell: u32,
@@ -21,11 +22,11 @@ pub struct Brightest {
 }
 
 impl Brightest {
-    /// The most cells there are: these fit into one update of a buffer.
+    /// The most cells that a grid has. One update of a buffer can write as many.
     pub const MOST_CELLS: u32 = 16384;
 
-    /// The width and height in pixels of a cell, the smallest that makes few enough of them, and how many columns
-    /// and rows there are.
+    /// The width and height of a cell in pixels, and the numbers of columns and rows. The cells are as small as
+    /// [`Self::MOST_CELLS`] allows.
     pub fn grid(size: [u32; 2]) -> [u32; 3] {
         let cells = |edge: u32| size.map(|length| length.div_ceil(edge));
         let fits = |[columns, rows]: [u32; 2]| columns.saturating_mul(rows) <= Self::MOST_CELLS;
@@ -45,7 +46,7 @@ impl Brightest {
         for (plane, of) in scene.of_kind::<Plane>() {
             grid.raise(of_materials[of.material as usize], |cell| view.sees(plane, cell));
         }
-        // What is no brighter than this need not be looked for.
+        // Shapes that are no brighter than this cannot raise any cell.
         let least = grid.luminances.iter().copied().fold(f32::INFINITY, f32::min);
         let cover = |bright: &f32| (*bright > least).then(|| Coverage::new([columns, rows], cell));
         let mut coverages: Vec<Option<Coverage>> = of_materials.iter().map(cover).collect();
@@ -63,12 +64,12 @@ impl Brightest {
         grid
     }
 
-    /// Of a pixel.
+    /// The bound of a pixel.
     pub fn at(&self, [x, y]: [u32; 2]) -> f32 {
         self.luminances[(y / self.cell * self.columns + x / self.cell) as usize]
     }
 
-    /// Makes the cells at least so bright that see something.
+    /// Raises the bound to at least `bright` in the cells for which `sees` is true.
     fn raise(&mut self, bright: f32, sees: impl Fn(Area) -> bool) {
         let edge = f64::from(self.cell);
         for (luminance, index) in self.luminances.iter_mut().zip(0..) {
@@ -88,7 +89,7 @@ fn sky(scene: &Scene) -> DVec3 {
     scene.background.horizon.max(scene.background.zenith).as_dvec3()
 }
 
-/// How bright each material can look: by itself, or by what is brightest in its mirror image.
+/// The highest luminance that each material can show, by its own light or as a mirror of the brightest thing.
 fn luminances(scene: &Scene, max_bounces: u32) -> Vec<f32> {
     let light: DVec3 = scene.lights.iter().map(|light| light.radiance.as_dvec3()).sum();
     let own: Vec<DVec3> =
@@ -98,7 +99,8 @@ fn luminances(scene: &Scene, max_bounces: u32) -> Vec<f32> {
     for _ in 0..if mirrors { max_bounces } else { 0 } {
         let most = seen.iter().copied().fold(sky(scene), DVec3::max);
         for ((seen, own), material) in seen.iter_mut().zip(&own).zip(&scene.materials) {
-            // Not zero times infinity, which is what mirrors that amplify come to.
+            // Without mirrors this must be zero. Mirrors that amplify make `most` infinite, and zero times infinity
+            // is NaN.
             let reflectance = material.reflectance();
             let mirrored = reflectance.as_dvec3() * most;
             *seen = own.max(DVec3::select(reflectance.cmpeq(Vec3::ZERO), DVec3::ZERO, mirrored));
@@ -114,16 +116,16 @@ struct Area {
     to: DVec2,
 }
 
-/// How points get onto the film.
+/// The projection of points of the scene onto the film.
 struct View {
     frame: Frame,
     eye: DVec3,
     lens_radius: f64,
     inverse_focal_distance: f64,
-    /// From the view plane at distance one to pixels, y down.
+    /// Scales points of the view plane at distance one to pixels, with y down.
     pixels: DVec2,
     film_centre: DVec2,
-    /// How far from its start pixel a sample can be, beyond its own edge, and half a pixel for rounding.
+    /// How far beyond the edge of its start pixel a sample can lie, and half a pixel for rounding.
     margin: f64,
     half_shutter: f64,
 }
@@ -144,10 +146,11 @@ impl View {
         }
     }
 
-    /// Where a convex shape with these corners is seen.
+    /// Bounds the picture of a convex shape with these corners.
     ///
-    /// From one point of the lens it is seen within its corners, for perspective keeps it convex. A point at depth
-    /// z is seen from all of them in a blur of radius `R |1/z - 1/F|` on the view plane.
+    /// From one point of the lens, the picture of the shape lies within those of its corners, because perspective maps
+    /// convex shapes to convex ones. Seen from all points of the lens, a point at depth z is blurred over a disc of
+    /// radius `R |1/z - 1/F|` on the view plane.
     fn area(&self, corners: impl Iterator<Item = DVec3>, velocity: Vec3) -> Area {
         let way = velocity.as_dvec3();
         let times: &[f64] =
@@ -169,14 +172,15 @@ impl View {
             (area.from, area.to) = (area.from.min(middle - reach), area.to.max(middle + reach));
         }
         if any_before && any_behind {
-            // It goes through the plane of the lens: there is no telling.
+            // The shape crosses the plane of the lens, so its picture has no bounds.
             return Area { from: DVec2::NEG_INFINITY, to: DVec2::INFINITY };
         }
         area
     }
 
-    /// Whether rays of the area can meet a plane. How fast they near it, and how far off they start, is linear in
-    /// where they leave the film and the lens, so that the corners of both tell.
+    /// Whether rays through an area of the film can meet a plane. A ray's distance from the plane at its start, and the
+    /// rate at which it approaches the plane, are linear in the points of the film and of the lens that it passes. So
+    /// it is enough to test the corners of the area and of a square around the lens.
     fn sees(&self, plane: &Plane, area: Area) -> bool {
         let Frame { world_from_camera } = self.frame;
         let normal = world_from_camera.transpose() * plane.normal.as_dvec3().normalize();
@@ -198,8 +202,8 @@ impl View {
     }
 }
 
-/// Which cells of the grid some of many rectangles cover. Kept as differences of a cell to the one before it in
-/// both directions, so that a rectangle takes four additions, however large it is.
+/// The cells of the grid that at least one of many rectangles covers. What is stored is the difference between a cell
+/// and its predecessors in both directions, so that adding a rectangle of any size takes four additions.
 struct Coverage {
     differences: Vec<i32>,
     columns: usize,
@@ -215,7 +219,7 @@ impl Coverage {
 
     fn add(&mut self, area: Area) {
         let [from, to] = [area.from, area.to].map(|at| (at / f64::from(self.cell)).floor());
-        // A NaN, of what overflows, becomes the picture's edge.
+        // An overflow can make a NaN, which becomes the picture's edge here.
         let first = |at: f64, most: usize| at.clamp(0.0, most as f64) as usize;
         let [left, top] = [first(from.x, self.columns), first(from.y, self.rows)];
         let [right, bottom] = [first(to.x + 1.0, self.columns), first(to.y + 1.0, self.rows)];
@@ -226,7 +230,7 @@ impl Coverage {
         }
     }
 
-    /// The indices of the cells.
+    /// The indices of the covered cells.
     fn covered(&self) -> Vec<usize> {
         let mut above = vec![0; self.columns];
         let mut cells = Vec::new();

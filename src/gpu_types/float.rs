@@ -1,13 +1,13 @@
-//! Numbers as devices want them: without denormal ones, which are a hundred times slower on some processors.
+//! Replaces denormal numbers, with which some processors are a hundred times slower, by zero.
 
 use glam::Vec3;
 
-/// Zero where the number is denormal.
+/// The number, or zero if it is denormal.
 pub(super) fn float(value: f32) -> f32 {
     if value.is_subnormal() { 0.0 } else { value }
 }
 
-/// A vector with zeros in place of denormal numbers.
+/// The components of a vector, with zeros in place of denormal numbers.
 pub(super) fn floats(vector: Vec3) -> [f32; 3] {
     vector.to_array().map(float)
 }

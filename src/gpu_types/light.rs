@@ -1,4 +1,4 @@
-//! Lights as the shaders want them: one match arm a kind.
+//! Lights in the form that the shaders read. Each kind of light has a match arm.
 
 use super::float::floats;
 use crate::interface::light;
@@ -25,11 +25,11 @@ pub struct Environment {
     pub zenith: [f32; 3],
     pub pad1: u32,
     pub ambient: [f32; 3],
-    pub reach: f32,
+    pub bounding_radius: f32,
 }
 
 impl Light {
-    /// In coordinates with this origin.
+    /// The light in coordinates whose origin is `origin`.
     pub fn new(of: &scene::Light, origin: DVec3) -> Self {
         let (kind, position_or_direction) = match of.kind {
             LightKind::Point(point) => (light::POINT, (point.position - origin).as_vec3()),
@@ -47,13 +47,13 @@ impl Light {
 }
 
 impl Environment {
-    /// Every shape but planes lies within `reach` of the origin.
-    pub fn new(scene: &Scene, reach: f32) -> Self {
+    /// The sky and the ambient light of a scene whose bounded shapes lie within `bounding_radius` of the origin.
+    pub fn new(scene: &Scene, bounding_radius: f32) -> Self {
         Self {
             horizon: floats(scene.background.horizon),
             zenith: floats(scene.background.zenith),
             ambient: floats(scene.ambient),
-            reach,
+            bounding_radius,
             ..Zeroable::zeroed()
         }
     }

@@ -1,4 +1,4 @@
-//! Materials and their textures as the shaders want them: one match arm a kind.
+//! Materials and their textures in the form that the shaders read. Each kind has a match arm.
 
 use super::float::{float, floats};
 use crate::interface::{material, texture};
@@ -32,7 +32,7 @@ pub struct Texture {
 }
 
 impl Material {
-    /// In coordinates with this origin.
+    /// The material in coordinates whose origin is `origin`.
     pub fn new(of: &scene::Material, origin: DVec3) -> Self {
         let matte = |kind: u32, of: &Matte| Self {
             color: Texture::new(&of.color, origin),
@@ -69,7 +69,7 @@ impl Texture {
                 Self { color: floats(of.color), kind: texture::CONSTANT, ..Zeroable::zeroed() }
             }
             scene::Texture::Checker(of) => {
-                // The checker is the same again two cells farther along each axis.
+                // The checker repeats after two cells along each axis.
                 let phase = origin.map(|coordinate| coordinate.rem_euclid(2.0 * of.size));
                 Self {
                     color: floats(of.even),

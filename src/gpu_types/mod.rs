@@ -1,5 +1,5 @@
-//! Twins of the shaders' structs, byte for byte: the only place with padding. A test holds their
-//! offsets against the compiled shaders.
+//! The shaders' structs in Rust, byte for byte, with explicit padding, which no other module needs. A test compares
+//! their offsets with those in the compiled shaders.
 #![allow(missing_docs, reason = "the fields are documented where the shaders declare them")]
 
 mod aperture;
@@ -22,8 +22,9 @@ use crate::scene::{CameraModel, Hole};
 use crate::settings::{Estimator, Sampler, Settings};
 use bytemuck::{Pod, Zeroable};
 
-/// The three texels of a node in bvh.glsl. The last byte of `about` is the number of children, where a
-/// [`ShapeRecord`]'s index of a material has zero. `first` stands where that has no float.
+/// The three texels of a node in bvh.glsl. The upper byte of `about` is the number of children. A [`ShapeRecord`] has
+/// its material there, an index so small that its upper byte is zero, which tells shapes from nodes. `first` lies where
+/// a shape has an integer too.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub struct TreeNode {
@@ -159,7 +160,7 @@ pub struct PickedRay {
 }
 
 impl OverlayScale {
-    /// How the overlay of these settings is drawn; of none, where there is none.
+    /// How to draw the overlay of these settings. Without an overlay, the kind is `NONE`.
     pub fn new(settings: &Settings) -> Self {
         let Some(shown) = settings.view.overlay else {
             return Self::default();
@@ -175,12 +176,12 @@ impl OverlayScale {
     }
 }
 
-/// The specialization constants of the passes that work on the film alone.
+/// The specialization constants of the passes that read nothing but the film and its samples.
 pub fn film_constants(estimator: &Estimator) -> [(u32, u32); 2] {
     [sampler_constant(estimator.sampler), (constant::HAS_MOMENTS, estimator.has_moments().into())]
 }
 
-/// The specialization constants of the passes that trace rays through the lens, but for those of the scene.
+/// The specialization constants of the passes that trace rays through the lens, without those of the scene.
 pub fn lens_constants(estimator: &Estimator) -> [(u32, u32); 3] {
     let [sampler, has_moments] = film_constants(estimator);
     [sampler, has_moments, aperture_constant(estimator)]
@@ -197,13 +198,13 @@ pub fn sampler_constant(chosen: Sampler) -> (u32, u32) {
 }
 
 impl Lattice {
-    /// The row of workgroups that is visited as the one of this number, as in the shaders.
+    /// The row of workgroups that is visited after `number` others. The shaders have the same function.
     pub fn visited_row(&self, number: u32) -> u32 {
         (u64::from(number) * u64::from(self.row_step) % u64::from(self.row_count)) as u32
     }
 
-    /// Of the pixels from this column of it on, and from this row in the order in which its rows of workgroups are
-    /// visited.
+    /// The part of the lattice that starts at the column `at[0]`, and at the row `at[1]` in the order in which its rows
+    /// of workgroups are visited.
     pub fn from_tile(self, at: [u32; 2]) -> Self {
         let origin = [self.origin[0] + at[0] * self.stride, self.origin[1]];
         Self { origin, first_row: at[1] / GROUP_SIZE, ..self }
@@ -211,20 +212,21 @@ impl Lattice {
 }
 
 impl Counters {
-    /// Reads them from the start of a buffer's bytes.
+    /// Reads the counters from the start of a buffer's bytes.
     pub fn from_bytes(bytes: &[u8]) -> Self {
         bytemuck::pod_read_unaligned(&bytes[..size_of::<Self>()])
     }
 }
 
 impl Camera {
-    /// The camera as the shaders want it. Derived in f64, rounded once.
+    /// The camera in the form that the shaders read. All values are computed in f64 and rounded once.
     pub fn new(estimator: &Estimator) -> Self {
         let camera = &estimator.camera;
         let frame = camera.frame();
         let view_distance = camera.view_distance_pixels(estimator.size[1]);
-        // A film point s at v behind a hole sees along l - s, and s / v is -q of the view plane, or q where
-        // the picture is turned upright: the lens equation with -v for the focal distance.
+        // A film point s at the distance v behind a hole sees through the point l of the hole along l - s. On the view
+        // plane, s / v is -q, or q if the picture is turned upright. So this is the equation of a lens with -v for
+        // the focal distance.
         let (diameter, inverse_focal_distance, turned) = match estimator.model {
             CameraModel::ThinLens => (estimator.lens.diameter, estimator.lens.focal_distance.recip(), false),
             CameraModel::Pinhole => (0.0, 0.0, false),

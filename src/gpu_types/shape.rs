@@ -1,4 +1,4 @@
-//! Shapes as the shaders want them: one match arm a kind.
+//! Shapes in the form that the shaders read. Each kind of shape has a match arm.
 
 use super::float::{float, floats};
 use crate::interface::shape;
@@ -18,7 +18,7 @@ pub struct ShapeRecord {
     pub index: u32,
 }
 
-/// A shape in coordinates with this origin; a triangle with its widest corner first, where its record begins.
+/// A shape in coordinates whose origin is `origin`. A triangle starts at its widest corner, as its record does.
 pub(super) fn on_device(of: &Shaded, origin: DVec3) -> Shaded {
     let shape = match of.shape.seen_from(origin) {
         Shape::Triangle(triangle) => triangle.from_widest_corner().into(),
@@ -28,7 +28,7 @@ pub(super) fn on_device(of: &Shaded, origin: DVec3) -> Shaded {
 }
 
 impl ShapeRecord {
-    /// The shaders' number of a shape's kind.
+    /// The number that the shaders use for a shape's kind.
     pub fn kind(of: &Shape) -> u32 {
         match of {
             Shape::Sphere(_) => shape::SPHERE,
@@ -39,7 +39,8 @@ impl ShapeRecord {
         }
     }
 
-    /// Of a shape in the device's coordinates, a triangle with its widest corner first. `index` is that of its velocity, and of its corner normals in the tree.
+    /// The record of a shape in the device's coordinates; a triangle must start at its widest corner. `index` is the
+    /// place of the shape's velocity and, for shapes of the tree, of its corner normals.
     pub fn new(of: &Shaded, index: u32) -> Self {
         let (position, a, b) = match &of.shape {
             Shape::Sphere(sphere) => (sphere.center.as_vec3(), Vec3::splat(sphere.radius), Vec3::ZERO),

@@ -16,8 +16,8 @@ impl Accumulate {
     /// The shader.
     pub const SHADER: Shader = shader!("accumulate");
 
-    /// Compiles the pass from its shader, or one with the same interface, for the constants of the
-    /// estimator that the samples are of.
+    /// Compiles the pass from its shader, or from one with the same interface, for the constants of the estimator that
+    /// makes the samples.
     pub fn new(
         device: &Arc<Device>,
         shader: Shader,
@@ -27,8 +27,8 @@ impl Accumulate {
         Ok(Self { pipeline: ComputePipeline::new(device, shader, estimator)?, tile: tile.clone() })
     }
 
-    /// From the tracing image `traced` into `film`. Once some pixels have stopped, `list` of `adaptive` holds
-    /// those to merge.
+    /// The pass merges the tracing image `traced` into `film`. Once some pixels have stopped, the list with the number
+    /// `list` in `adaptive` holds the pixels to merge.
     pub fn bind(
         &self,
         traced: &Arc<Image>,

@@ -1,4 +1,4 @@
-//! What an adaptive picture needs besides tracing and accumulation image: see
+//! The images and buffers that an adaptive picture needs besides the tracing and the accumulation image: see
 //! `shaders/core/adaptive.glsl`.
 
 use crate::error::Result;
@@ -7,21 +7,22 @@ use crate::interface::binding;
 use crate::vulkan::{Binding, Buffer, Device, Image, Recording, Residence};
 use std::sync::Arc;
 
-/// Second moments and lists of pixels; of one pixel, where the picture is not adaptive.
+/// The second moments of the pixels, and the lists of active pixels. Without moments, all have the size of one pixel.
 pub struct Adaptive {
-    /// Of the samples in the tracing and in the accumulation image.
+    /// The second moments of the tracing image, then those of the accumulation image.
     moments: [Arc<Image>; 2],
-    /// The active pixels, and those of the selection before or after: their number, then a pixel each.
+    /// Two lists of active pixels: a selection reads one and writes the other. A list is the number of its pixels, then
+    /// an entry for each pixel.
     lists: [Arc<Buffer>; 2],
     /// See [`Brightest`].
     brightest: Arc<Buffer>,
 }
 
 impl Adaptive {
-    /// Bytes of a list before its first pixel.
+    /// The number of bytes in a list before its first pixel.
     pub const LIST_HEADER: u64 = size_of::<u32>() as u64;
 
-    /// For an adaptive picture of this size, or one that is not adaptive.
+    /// Makes them for a picture of this size, or, with `None`, for a film without second moments.
     pub fn new(device: &Arc<Device>, size: Option<[u32; 2]>) -> Result<Self> {
         let size = size.unwrap_or([1, 1]);
         let moments = |name| Image::r32f(device, name, size).map(Arc::new);
@@ -36,7 +37,7 @@ impl Adaptive {
         })
     }
 
-    /// The second moments, of the tracing and of the accumulation image.
+    /// The second moments of the tracing image, then those of the accumulation image.
     pub fn moments(&self) -> &[Arc<Image>; 2] {
         &self.moments
     }
@@ -46,8 +47,8 @@ impl Adaptive {
         &self.lists[list]
     }
 
-    /// What the passes from the tracing image `traced` into `film` have in common: both, and the list that is
-    /// read.
+    /// The bindings that two passes share: the tracing image `traced`, the accumulation image `film`, and the list of
+    /// active pixels to read.
     pub(super) fn bind_images(
         &self,
         traced: &Arc<Image>,
@@ -61,17 +62,17 @@ impl Adaptive {
         ]
     }
 
-    /// One of the lists, as that of the active pixels.
+    /// Binds one of the lists as the active pixels.
     pub fn bind_active(&self, list: usize) -> (u32, Binding) {
         (binding::ACTIVE_PIXELS, Binding::Buffer(Arc::clone(&self.lists[list])))
     }
 
-    /// One of the lists, as that of the pixels that a selection keeps.
+    /// Binds one of the lists as the pixels that a selection keeps.
     pub(super) fn bind_kept(&self, list: usize) -> (u32, Binding) {
         (binding::KEPT_PIXELS, Binding::Buffer(Arc::clone(&self.lists[list])))
     }
 
-    /// Writes how bright what rays can meet is.
+    /// Writes the upper bounds of the luminance that rays can meet.
     pub fn record_brightest(&self, recording: &mut Recording<'_>, brightest: &Brightest) {
         recording.update_buffer(&self.brightest, bytemuck::cast_slice(&brightest.luminances));
     }

@@ -1,4 +1,4 @@
-//! What the blue-noise sampler reads.
+//! The tile that the blue-noise sampler reads.
 
 use crate::error::Result;
 use crate::interface::binding;
@@ -11,13 +11,13 @@ use std::sync::Arc;
 pub struct BlueNoiseTile(Arc<TexelBuffer>);
 
 impl BlueNoiseTile {
-    /// Uploads it.
+    /// Uploads the tile.
     pub fn new(device: &Arc<Device>) -> Result<Self> {
         let numbers = include_bytes!("../../shaders/blue_noise_tile.bin");
         Ok(Self(Arc::new(TexelBuffer::upload(device, "blue-noise tile", numbers)?)))
     }
 
-    /// It, and where the shaders want it.
+    /// The binding from which the shaders read the tile.
     pub fn binding(&self) -> (u32, Binding) {
         (binding::BLUE_NOISE_TILE, Binding::Texels(Arc::clone(&self.0)))
     }

@@ -1,4 +1,4 @@
-//! Finds what the middle of each pixel sees.
+//! Finds the surface that the centre of each pixel sees.
 
 use super::SceneBuffers;
 use crate::error::Result;
@@ -7,22 +7,22 @@ use crate::interface::{GROUP_SIZE, binding};
 use crate::vulkan::{Binding, BindingSet, ComputePipeline, Device, Image, Recording, Shader, shader};
 use std::sync::Arc;
 
-/// Beside the passes of a picture. See `shaders/geometry.comp`.
+/// The geometry pass, which overlays need. See `shaders/geometry.comp`.
 pub struct Geometry(ComputePipeline);
 
-/// Rows are cut so that a dispatch has no more pixels than these.
+/// The most pixels of a dispatch. A picture with more takes several, each for some of its rows.
 const MOST_PIXELS: u32 = 1 << 21;
 
 impl Geometry {
     /// The shader.
     pub const SHADER: Shader = shader!("geometry");
 
-    /// Compiles the pass from its shader, or one with the same interface, for the constants of a scene.
+    /// Compiles the pass from its shader, or from one with the same interface, for the constants of a scene.
     pub fn new(device: &Arc<Device>, shader: Shader, scene: &SceneBuffers) -> Result<Self> {
         Ok(Self(ComputePipeline::new(device, shader, scene.constants())?))
     }
 
-    /// From `scene` into `surfaces`.
+    /// The pass looks at `scene` and writes to the image `surfaces`.
     pub fn bind(&self, scene: &SceneBuffers, surfaces: &Arc<Image>) -> Result<BindingSet> {
         let mut bindings = scene.bindings();
         bindings.push((binding::SURFACE_IMAGE, Binding::Image(Arc::clone(surfaces))));

@@ -1,6 +1,6 @@
-//! The passes, in the order of the data: a pipeline and its `record()` each. Trace, accumulate and resolve
-//! make every picture; select belongs to adaptive ones, pick says what lies under a pixel, and geometry how
-//! deep all of them see. A pass, its shader, its file and its debug label
+//! The passes. Each has a pipeline, and a `record()` that records its dispatch. Trace, accumulate and resolve, in this
+//! order, make every picture. Select belongs to adaptive pictures, pick finds what lies under one pixel, and geometry
+//! finds the normal and the depth of the surface under every pixel. A pass, its shader, its file and its debug label
 //! share one name. Every `Result` can have the errors of [`crate::vulkan`].
 
 mod accumulate;
@@ -27,20 +27,20 @@ pub use trace::Trace;
 
 use crate::vulkan::Shader;
 
-/// The shaders of the passes. Tests put others in their place, to see a mistake found.
+/// The shaders of the passes. Tests replace them by shaders with a planted fault, and expect to find it.
 #[derive(Debug, Clone, Copy)]
 pub struct Shaders {
-    /// Pass 1.
+    /// Pass 1, which traces a batch of samples.
     pub trace: Shader,
-    /// Pass 2.
+    /// Pass 2, which merges the batch into the film.
     pub accumulate: Shader,
-    /// Between batches of an adaptive picture.
+    /// The pass between batches of an adaptive picture, which lists the pixels to go on with.
     pub select: Shader,
-    /// Pass 3.
+    /// Pass 3, which turns the film into a picture.
     pub resolve: Shader,
-    /// Beside them.
+    /// The pass that finds what lies under one pixel.
     pub pick: Shader,
-    /// For overlays.
+    /// The pass that finds the surface under every pixel, for overlays.
     pub geometry: Shader,
 }
 

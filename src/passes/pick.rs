@@ -1,4 +1,4 @@
-//! Asks what the camera sees at one place of the film.
+//! Finds what the camera sees at one place of the film.
 
 use super::{ApertureBuffers, BlueNoiseTile, SceneBuffers};
 use crate::error::Result;
@@ -9,14 +9,14 @@ use crate::vulkan::{
 };
 use std::sync::Arc;
 
-/// Beside the passes of a picture. See `shaders/pick.comp`.
+/// The pick pass, which takes no part in making a picture. See `shaders/pick.comp`.
 pub struct Pick {
     pipeline: ComputePipeline,
     tile: BlueNoiseTile,
     device: Arc<Device>,
 }
 
-/// What the pass reads, and where it writes what it meets.
+/// The resources that the pass reads, and the buffer that it writes the rays to.
 pub struct PickBindings {
     rays: Arc<Buffer>,
     set: BindingSet,
@@ -27,10 +27,10 @@ impl Pick {
     pub const SHADER: Shader = shader!("pick");
     /// The most rays of a fan.
     pub const MOST_FAN: u32 = 65;
-    /// The most samples that are followed.
+    /// The most samples that the pass follows.
     pub const MOST_SAMPLES: u32 = 256;
 
-    /// Compiles the pass from its shader, or one with the same interface, for the constants of an
+    /// Compiles the pass from its shader, or from one with the same interface, for the constants of an
     /// estimator and a scene.
     pub fn new(
         device: &Arc<Device>,
@@ -44,7 +44,7 @@ impl Pick {
         Ok(Self { pipeline, tile: tile.clone(), device: Arc::clone(device) })
     }
 
-    /// From `scene`, seen through `aperture`, into a buffer that the host reads.
+    /// The pass traces `scene` through `aperture` and writes to a buffer that the host reads.
     pub fn bind(&self, scene: &SceneBuffers, aperture: &ApertureBuffers) -> Result<PickBindings> {
         let most_rays = 1 + 2 * Self::MOST_FAN + Self::MOST_SAMPLES;
         let size = u64::from(most_rays) * size_of::<PickedRay>() as u64;
@@ -56,7 +56,7 @@ impl Pick {
         Ok(PickBindings { rays, set: BindingSet::new(&self.pipeline, &bindings)? })
     }
 
-    /// Traces the rays: the first, those of two fans, and the samples.
+    /// Traces the rays: the one through the centre of the lens, then those of the two fans, then the samples.
     pub fn record(&self, recording: &mut Recording<'_>, bindings: &PickBindings, push: &PickPush) {
         let rays = 1 + 2 * push.fan + push.samples;
         recording.dispatch(&self.pipeline, &bindings.set, bytemuck::bytes_of(push), [rays, 1]);
@@ -64,7 +64,7 @@ impl Pick {
 }
 
 impl PickBindings {
-    /// What so many rays met, once the commands are done that trace them.
+    /// The first `rays` rays and what they met. The commands that trace them must have finished.
     pub fn read(&self, rays: usize) -> Vec<PickedRay> {
         bytemuck::allocation::pod_collect_to_vec(&self.rays.bytes()[..rays * size_of::<PickedRay>()])
     }

@@ -10,16 +10,16 @@ use std::sync::Arc;
 /// Pass 3. See `shaders/resolve.comp`.
 pub struct Resolve(ComputePipeline);
 
-/// What the pass is compiled for.
+/// The variants that the pass can be compiled as.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ResolveKind {
-    /// Every texel that it looks at has a sample.
+    /// Every texel that the pass reads has a sample.
     WithoutHoles,
     /// Some texels may have no sample.
     WithHoles,
-    /// Some texels may have no sample, and an overlay is drawn, for a film with second moments or without.
+    /// An overlay is shown, and some texels may have no sample.
     Overlay {
-        /// Whether the film has them.
+        /// Whether the film has second moments.
         has_moments: bool,
     },
 }
@@ -28,7 +28,7 @@ impl Resolve {
     /// The shader.
     pub const SHADER: Shader = shader!("resolve");
 
-    /// Compiles the pass from its shader, or one with the same interface.
+    /// Compiles the pass from its shader, or from one with the same interface.
     pub fn new(device: &Arc<Device>, shader: Shader, kind: ResolveKind) -> Result<Self> {
         let has_moments = kind == ResolveKind::Overlay { has_moments: true };
         let constants = [
@@ -39,7 +39,8 @@ impl Resolve {
         Ok(Self(ComputePipeline::new(device, shader, &constants)?))
     }
 
-    /// From `film` into `picture`, for passes of every kind. Overlays also look at `surfaces` and moments.
+    /// The pass turns `film` into `picture`. The bindings serve every [`ResolveKind`]; overlays also read `surfaces`
+    /// and the second moments of `adaptive`.
     pub fn bind(
         &self,
         film: &Arc<Image>,

@@ -6,20 +6,20 @@ use crate::gpu_types::SelectPush;
 use crate::vulkan::{BindingSet, ComputePipeline, Device, Image, Recording, Shader, shader};
 use std::sync::Arc;
 
-/// What follows pass 2 between the batches of an adaptive picture. See `shaders/select.comp`.
+/// The pass that follows pass 2 between the batches of an adaptive picture. See `shaders/select.comp`.
 pub struct Select(ComputePipeline);
 
 impl Select {
     /// The shader.
     pub const SHADER: Shader = shader!("select");
 
-    /// Compiles the pass from its shader, or one with the same interface.
+    /// Compiles the pass from its shader, or from one with the same interface.
     pub fn new(device: &Arc<Device>, shader: Shader, estimator: &[(u32, u32)]) -> Result<Self> {
         Ok(Self(ComputePipeline::new(device, shader, estimator)?))
     }
 
-    /// From the pixels that `list` of `adaptive` holds, by `film`, to the other list. In the tracing image
-    /// `traced` those that stop are emptied.
+    /// The pass reads the pixels of the list with the number `list` in `adaptive`, and writes those that `film` shows
+    /// to be noisy to the other list. It empties the texels of the pixels that stop in the tracing image `traced`.
     pub fn bind(
         &self,
         traced: &Arc<Image>,
@@ -31,7 +31,7 @@ impl Select {
         BindingSet::new(&self.0, &[&adaptive.bind_images(traced, film, list)[..], &others].concat())
     }
 
-    /// Chooses among `extent` pixels of the push constants' lattice.
+    /// Selects from `extent` pixels of the push constants' lattice.
     pub fn record(
         &self,
         recording: &mut Recording<'_>,

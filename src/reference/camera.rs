@@ -1,12 +1,12 @@
-//! The thin-lens camera: K. Suffern, *Ray Tracing from the Ground Up*, chapter 10. And the camera that
-//! has a hole instead of a lens.
+//! The thin-lens camera: K. Suffern, *Ray Tracing from the Ground Up*, chapter 10. Also the camera that has a hole
+//! instead of a lens.
 
 use super::Ray;
 use crate::scene::CameraModel;
 use crate::settings::Estimator;
 use glam::DVec3;
 
-/// What the camera makes of a film position.
+/// The camera's map from a film position and a lens point to a ray.
 pub(super) struct Projection {
     eye: DVec3,
     u: DVec3,
@@ -19,13 +19,13 @@ pub(super) struct Projection {
     opening: Opening,
 }
 
-/// What light comes in through.
+/// The opening through which light comes in.
 enum Opening {
     Lens {
         radius: f64,
         focal_distance: f64,
     },
-    /// With the film behind it.
+    /// A hole with the film behind it.
     Hole {
         radius: f64,
         film_distance: f64,
@@ -60,8 +60,8 @@ impl Projection {
         }
     }
 
-    /// Where a film position lies from the picture's middle, as a share of the way to a corner, y up.
-    pub(super) fn way_to_corner(&self, pixel: [u32; 2], offset: [f64; 2]) -> [f64; 2] {
+    /// A film position relative to the picture's centre, y up, in units of the distance to a corner.
+    pub(super) fn normalized_film_position(&self, pixel: [u32; 2], offset: [f64; 2]) -> [f64; 2] {
         let [width, height] = self.size;
         let half_diagonal = width.hypot(height) / 2.0;
         let [x, y] = [0, 1].map(|axis| f64::from(pixel[axis]) + 0.5 + offset[axis]);
@@ -69,8 +69,8 @@ impl Projection {
     }
 
     /// The ray from the lens point `disk` (of the unit disk) through the point where the centre ray
-    /// of the film position meets the focal plane. Without a lens: from the film position through that
-    /// point of the hole, where it starts.
+    /// of the film position meets the focal plane. Without a lens, the ray goes from the film position
+    /// through the point `disk` of the hole, and starts there.
     pub(super) fn primary_ray(&self, pixel: [u32; 2], offset: [f64; 2], disk: [f64; 2], time: f64) -> Ray {
         let [width, height] = self.size;
         let x = f64::from(pixel[0]) + 0.5 + offset[0];
@@ -86,7 +86,8 @@ impl Projection {
                 Ray { origin, direction: (focus - origin).normalize(), time }
             }
             Opening::Hole { radius, film_distance, upright } => {
-                // Seen from behind, the film is a window: what is at its right was at the left.
+                // The hole projects the scene upside down. An upright picture shows each film point on the opposite
+                // side of the centre.
                 let across = if upright { -across } else { across };
                 let film_point = self.eye + film_distance * (across + self.w);
                 let origin = self.eye + radius * on_disk;

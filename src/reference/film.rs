@@ -1,4 +1,4 @@
-//! The film as its formula says it.
+//! The film, by the formula of the running mean.
 
 use glam::DVec3;
 
@@ -6,7 +6,7 @@ use glam::DVec3;
 pub struct Film {
     size: [u32; 2],
     texels: Vec<[f64; 4]>,
-    /// Samples that were not finite.
+    /// The number of samples that were not finite.
     pub rejected: u64,
 }
 
@@ -18,7 +18,7 @@ impl Film {
     }
 
     /// Averages a sample into the pixel it lands in: `mean = (sample + count * mean) / (count + 1)`.
-    /// One that lands beside the film is lost.
+    /// A sample that lands outside the film is lost.
     pub fn add(&mut self, start: [u32; 2], offset: [f64; 2], sample: DVec3) {
         if !sample.is_finite() {
             self.rejected += 1;
@@ -36,7 +36,7 @@ impl Film {
         }
     }
 
-    /// Row by row from the top left.
+    /// The means and counts, row by row from the top left.
     pub fn texels(&self) -> &[[f64; 4]] {
         &self.texels
     }

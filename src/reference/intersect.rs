@@ -1,4 +1,4 @@
-//! Rays against the scene.
+//! Intersects rays with the scene.
 
 use super::Ray;
 use super::shape::{Crossing, crossing};
@@ -8,20 +8,20 @@ use glam::{DVec2, DVec3};
 /// A point where a ray meets a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
-    /// Along the ray.
+    /// The distance along the ray.
     pub distance: f64,
-    /// Across the surface. Unit length, on the side the ray comes from.
+    /// The unit normal of the surface, on the side that the ray comes from.
     pub normal: DVec3,
-    /// What light and mirrors see: [`crate::scene::Triangle::normals`] interpolated, elsewhere `normal`. Unit length,
-    /// within a right angle of `normal`.
+    /// The unit normal that shading and mirrors use: [`crate::scene::Triangle::normals`] interpolated, or `normal` for
+    /// other shapes. It is within a right angle of `normal`.
     pub shading_normal: DVec3,
-    /// Whether the ray comes from where the shape's own normal does not point to: from inside, or from the back.
+    /// Whether the ray meets the inside or the back of the shape, which its own normal does not point to.
     pub from_behind: bool,
-    /// Where on the shape: see the shaders of the kinds.
+    /// The surface coordinates: see the shaders of the kinds.
     pub uv: DVec2,
-    /// Index into [`Scene::materials`].
+    /// The index into [`Scene::materials`].
     pub material: u32,
-    /// Of what was hit, in scene units a second.
+    /// The velocity of the shape, in scene units per second.
     pub velocity: DVec3,
 }
 
@@ -31,7 +31,8 @@ pub fn intersect(scene: &Scene, ray: Ray, least: f64) -> Option<Hit> {
     hits.min_by(|a, b| a.distance.total_cmp(&b.distance))
 }
 
-/// Where the ray meets a shape. To a moving shape it is the ray that moves, the other way.
+/// The hit of the ray on a shape. In the frame of a moving shape, the shape rests and the ray is displaced the other
+/// way.
 fn hit(of: &Shaded, ray: Ray, least: f64) -> Option<Hit> {
     let velocity = of.velocity.as_dvec3();
     let seen = Ray { origin: ray.origin - ray.time * velocity, ..ray };

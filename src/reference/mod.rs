@@ -1,9 +1,10 @@
-//! The oracle: the renderer again, in f64, on the CPU, one sample at a time, written from the
-//! mathematics. It shares the scene and the settings with the GPU's renderer and nothing else: no
-//! shader struct, no device, no derived constant, so that it cannot inherit a mistake of theirs.
+//! The oracle: the renderer a second time, in f64, on the CPU, one sample at a time, written from the mathematics. It
+//! shares the scene and the settings with the GPU's renderer and nothing else: no shader struct, no device, no derived
+//! constant. So it cannot inherit a mistake from any of these.
 //!
-//! Same: the sample values, bit for bit. Different: f64 instead of f32, textbook formulas instead of
-//! rearranged ones, and so a different answer next to edges, where rounding decides what a ray hits.
+//! The sample values are the same as on the GPU, bit for bit. The arithmetic is f64 instead of f32, and the formulas
+//! are those of textbooks instead of rearranged ones. So the oracle may disagree with the GPU next to edges, where
+//! rounding decides what a ray hits.
 
 pub mod aperture;
 mod camera;
@@ -26,11 +27,11 @@ use glam::DVec3;
 /// A half-line from a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ray {
-    /// Where it starts.
+    /// The point where the ray starts.
     pub origin: DVec3,
-    /// Unit length.
+    /// The direction, of unit length.
     pub direction: DVec3,
-    /// When light goes along it, in seconds from the middle of the exposure.
+    /// The time at which light travels along the ray, in seconds from the middle of the exposure.
     pub time: f64,
 }
 
@@ -39,9 +40,9 @@ pub struct Ray {
 pub struct Sample {
     /// The primary ray.
     pub ray: Ray,
-    /// Where the film position lies from the start pixel's centre, in pixels, x right and y down.
+    /// The film position relative to the start pixel's centre, in pixels, x right and y down.
     pub offset: [f64; 2],
-    /// Radiance along the primary ray.
+    /// The radiance along the primary ray.
     pub radiance: DVec3,
 }
 
@@ -52,7 +53,7 @@ pub struct Reference<'a> {
 }
 
 impl<'a> Reference<'a> {
-    /// For a picture of these settings.
+    /// The oracle for a picture with these settings.
     pub fn new(estimator: &'a Estimator) -> Self {
         Self { estimator, projection: Projection::new(estimator) }
     }
@@ -64,7 +65,7 @@ impl<'a> Reference<'a> {
         let offset = [(xi[0] - 0.5) * jitter, (xi[1] - 0.5) * jitter];
         let estimator = self.estimator;
         let lens = [xi[2], xi[3]];
-        let film = self.projection.way_to_corner(pixel, offset);
+        let film = self.projection.normalized_film_position(pixel, offset);
         let (point, share) = aperture::point(&estimator.aperture, estimator.model, film, lens);
         let time = if estimator.scene.moves() {
             let open = sampler::time_value(estimator.sampler, estimator.seed, pixel, index);
@@ -76,8 +77,8 @@ impl<'a> Reference<'a> {
         Sample { radiance: share * sample.radiance, ..sample }
     }
 
-    /// The sample of a film position, `offset` pixels from this pixel's centre, and a point of the
-    /// lens, whose radius is one, so many seconds from the middle of the exposure.
+    /// The sample of the film position at `offset` pixels from this pixel's centre and of the point `disk` of the
+    /// lens, whose radius is one. `time` is in seconds from the middle of the exposure.
     pub fn trace(&self, pixel: [u32; 2], offset: [f64; 2], disk: [f64; 2], time: f64) -> Sample {
         let ray = self.projection.primary_ray(pixel, offset, disk, time);
         let scene = &*self.estimator.scene;

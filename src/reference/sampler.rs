@@ -1,14 +1,14 @@
-//! The samplers, and the map to the disk.
+//! The samplers, and the map from the unit square to the unit disk.
 
 use crate::settings::Sampler;
 use std::f64::consts::FRAC_PI_4;
 
-/// The tile of `examples/blue_noise_tile.rs`: a number of 16 bits a pixel, row by row.
+/// The tile of `examples/blue_noise_tile.rs`: a number of 16 bits for each pixel, row by row.
 const NUMBERS: &[u8; 2 * (TILE * TILE) as usize] = include_bytes!("../../shaders/blue_noise_tile.bin");
-/// The pixels along an edge of it.
+/// The number of pixels along an edge of the blue-noise tile.
 pub const TILE: u32 = 128;
-/// The keys of the scramble that all pixels share, one that errs little among some hundreds: up to 256
-/// samples, with edges in and out of focus.
+/// The keys of the scramble that all pixels share with blue noise. Of some hundreds of keys, these have small errors
+/// with up to 256 samples, at edges in and out of focus.
 const BLUE_NOISE_SCRAMBLE: [u32; 4] = [0x0e7e_f62e, 0xeec2_10f3, 0xbced_7d2a, 0x84af_394d];
 
 /// M. Jarzynski and M. Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020: pcg4d.
@@ -25,7 +25,8 @@ fn mix([x, y, z, w]: [u32; 4]) -> [u32; 4] {
     [x, y, z, w]
 }
 
-/// Four values in [0, 1), multiples of 2^-24: the film jitter's x and y, the lens point's.
+/// Four values in [0, 1), which are multiples of 2^-24. In block 0 they are x and y of the film jitter, then x and y of
+/// the lens point.
 pub fn sample_values(sampler: Sampler, seed: u32, pixel: [u32; 2], index: u32, block: u32) -> [f64; 4] {
     let [x, y] = pixel;
     let bits = match sampler {
@@ -36,25 +37,26 @@ pub fn sample_values(sampler: Sampler, seed: u32, pixel: [u32; 2], index: u32, b
     bits.map(unit)
 }
 
-/// The number of a pixel in the tile, which a seed shifts.
+/// The number of a pixel in the blue-noise tile, which the seed shifts.
 fn blue_noise_number(seed: u32, [x, y]: [u32; 2], block: u32) -> u16 {
     let shift = folded([0, 0, block, seed]);
-    // A value leaves the last byte of its bits unused.
+    // The last byte of the bits is free for the shift, because a sample value does not use it.
     let (column, row) = (x.wrapping_add(shift[0]) % TILE, y.wrapping_add(shift[1]) % TILE);
     let place = 2 * (row * TILE + column) as usize;
     u16::from_le_bytes([NUMBERS[place], NUMBERS[place + 1]])
 }
 
-/// The blue-noise sampler's bits for a pixel that has this number: of a Sobol sequence with one scramble
-/// for all pixels, xored with a mask that the number chooses, and one that the seed does.
+/// The bits of the blue-noise sampler for a pixel that has this number in the tile. They are a point of a Sobol
+/// sequence with one scramble for all pixels, xored with one mask that depends on the number and one that depends on
+/// the seed.
 pub fn blue_noise_bits(number: u16, seed: u32, index: u32, block: u32) -> [u32; 4] {
     let (shift, mask) = (folded([0, 0, block, seed]), folded([number.into(), 0, 0, 0]));
     let point = scrambled(index, BLUE_NOISE_SCRAMBLE);
     [0, 1, 2, 3].map(|axis| point[axis] ^ shift[axis] ^ mask[axis])
 }
 
-/// A value in [0, 1) for the time of a sample: the Sobol sequence's first dimension, its points in an order of
-/// their own (B. Burley, JCGT 9(4), 2020, section 4).
+/// A value in [0, 1) for the time of a sample: the first dimension of the Sobol sequence, with its points in their own
+/// order (B. Burley, JCGT 9(4), 2020, section 4).
 pub fn time_value(sampler: Sampler, seed: u32, pixel: [u32; 2], index: u32) -> f64 {
     const BLOCK: u32 = 1;
     let ordered = |order: u32, key: u32| owen_scramble(owen_scramble(index, order).reverse_bits(), key);
@@ -72,17 +74,17 @@ pub fn time_value(sampler: Sampler, seed: u32, pixel: [u32; 2], index: u32) -> f
     }
 }
 
-/// What is decided at a bounce of a path.
+/// What sample values decide at a bounce of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Use {
-    /// Which light, and where on it.
+    /// Which light is sampled, and at which point.
     Light,
-    /// Where the ray goes on, and whether.
+    /// Whether the ray goes on, and in which direction.
     Direction,
 }
 
-/// Four values in [0, 1) for a use at a bounce of a path. They have a block of their own, whose points are in another
-/// order, as those of the time are.
+/// Four values in [0, 1) for a use at a bounce of a path. Each use at each bounce has its own block, whose points are
+/// in their own order, like those of the time.
 pub fn path_values(
     sampler: Sampler,
     seed: u32,
@@ -104,18 +106,18 @@ pub fn path_values(
     sample_values(sampler, seed, pixel, shuffled, block)
 }
 
-/// The value in [0, 1) of these bits: the first 24 count.
+/// The value in [0, 1) of these bits, of which it uses the upper 24.
 pub fn unit(bits: u32) -> f64 {
     f64::from(bits >> 8) / 16_777_216.0
 }
 
-/// The hash, with its lower halves improved by the upper ones: the hash mixes them less well, and what
-/// is made of it begins with them.
+/// The hash, with the upper half of each number's bits folded into the lower half. The hash mixes the lower bits less
+/// well, but they decide the leading bits of the samples.
 fn folded(input: [u32; 4]) -> [u32; 4] {
     pcg4d(input).map(|hash| hash ^ (hash >> 16))
 }
 
-/// The Sobol point with the film in the third and fourth dimension, the lens in the first two, scrambled.
+/// The scrambled Sobol point of an index. The film takes the third and fourth dimension, the lens the first two.
 fn scrambled(index: u32, keys: [u32; 4]) -> [u32; 4] {
     let [first, second, third, fourth] = sobol(index);
     let of_film_and_lens = [third, fourth, first, second];
@@ -123,12 +125,12 @@ fn scrambled(index: u32, keys: [u32; 4]) -> [u32; 4] {
 }
 
 /// The first four dimensions of the Sobol sequence, in multiples of 2^-32: S. Joe and F. Kuo, "Notes
-/// on Generating Sobol Sequences", 2008, with the primitive polynomials and initial numbers of their
-/// table, but for the fourth dimension's initial numbers: with 1, 1, 3 the first eight points of the
-/// third and fourth are a net.
+/// on Generating Sobol Sequences", 2008. The primitive polynomials and initial numbers are those of their
+/// table, except that the fourth dimension has the initial numbers 1, 1, 3. With these, the first eight
+/// points of the third and fourth dimension are a net.
 pub fn sobol(index: u32) -> [u32; 4] {
     [
-        // The first dimension has no polynomial: its directions are the bits.
+        // The first dimension has no polynomial: its direction numbers are single bits.
         radical_sum(index, &std::array::from_fn(|bit| 1 << (31 - bit))),
         radical_sum(index, &directions(1, 0, &[1])),
         radical_sum(index, &directions(2, 1, &[1, 3])),
@@ -136,13 +138,13 @@ pub fn sobol(index: u32) -> [u32; 4] {
     ]
 }
 
-/// The sum, modulo two, of the directions of the bits that the index has.
+/// The sum, modulo two, of the direction numbers of the bits that are set in the index.
 fn radical_sum(index: u32, directions: &[u32; 32]) -> u32 {
     let chosen = directions.iter().enumerate().filter(|(bit, _)| index >> bit & 1 == 1);
     chosen.fold(0, |sum, (_, direction)| sum ^ direction)
 }
 
-/// Direction numbers of a polynomial of this degree, with its inner coefficients as bits.
+/// The direction numbers of a polynomial of this degree, whose inner coefficients are the bits of `coefficients`.
 fn directions(degree: usize, coefficients: u32, initial: &[u32]) -> [u32; 32] {
     let mut directions = [0; 32];
     for bit in 0..32 {
@@ -157,7 +159,7 @@ fn directions(degree: usize, coefficients: u32, initial: &[u32]) -> [u32; 32] {
     directions
 }
 
-/// Flips each bit as a hash of the bits above it and of the key says: N. Vegdahl, "Building a Better LK
+/// Flips each bit or not, as a hash of the key and the bits above it decides: N. Vegdahl, "Building a Better LK
 /// Hash", 2021, after S. Laine and T. Karras, 2011.
 pub fn owen_scramble(value: u32, key: u32) -> u32 {
     let mut bits = value.reverse_bits();

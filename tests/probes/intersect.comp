@@ -36,7 +36,7 @@ void main() {
         Hit hit = intersect_scene(ray, given_up);
         vec3 position = ray.origin + hit.distance * ray.direction;
         float error;
-        vec3 normal = settle(hit.surface, position, error);
+        vec3 normal = project_onto_surface(hit.surface, position, error);
         bool found = hit.distance < MISS;
         outputs[i] = Out(
             found ? normal : vec3(0.0), hit.distance, found ? hit.material : 0u,

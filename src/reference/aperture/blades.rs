@@ -1,5 +1,5 @@
-//! An iris: from the middle of a blade's edge to its corner, the squared distance is a mixture of that of a straight edge
-//! and of a circle.
+//! An iris of blades. The squared distance of a blade's edge from the centre is a mixture of the squared distances of a
+//! straight edge and of a circle.
 
 use crate::scene::Blades;
 use std::f64::consts::{PI, TAU};
@@ -8,7 +8,8 @@ pub(super) fn point(of: &Blades, xi: [f64; 2]) -> ([f64; 2], f64) {
     let (half, round) = (PI / f64::from(of.count), f64::from(of.roundness));
     let place = xi[0] * f64::from(of.count);
     let (blade, along) = (place.floor(), 2.0 * place.fract() - 1.0);
-    // Areas of both parts between middle and corner, twice over.
+    // Twice the areas between the middle of an edge and a corner: `straight` is the area of the straight part, and
+    // `round * half` that of the round part.
     let straight = (1.0 - round) * half.cos().powi(2) * half.tan();
     let share = straight / (straight + round * half);
     let angle = if along.abs() <= share {

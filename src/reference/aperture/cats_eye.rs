@@ -1,4 +1,4 @@
-//! The overlap of two discs: two caps back to back, each cut into slices of equal area.
+//! The overlap of two discs, which is two caps back to back. Each cap is cut into slices of equal area.
 
 use crate::scene::CatsEye;
 use std::f64::consts::PI;
@@ -10,8 +10,8 @@ pub(super) fn point(of: CatsEye, film: [f64; 2], xi: [f64; 2]) -> ([f64; 2], f64
     overlap(film.map(|share| -off * share * shorter), xi)
 }
 
-/// A point that two unit discs have in common, of which the second is off by so much, and the share of a disc that they
-/// have in common.
+/// A point of the overlap of two unit discs, the second of which is shifted by `off`, and the area of the overlap as a
+/// share of a disc's.
 fn overlap(off: [f64; 2], xi: [f64; 2]) -> ([f64; 2], f64) {
     let distance = off[0].hypot(off[1]);
     let axis = if distance > 0.0 { off.map(|part| part / distance) } else { [1.0, 0.0] };

@@ -1,3 +1,3 @@
-//! An ellipse: a disc, before it is stretched.
+//! An ellipse. Before it is stretched, it is a disc.
 
 pub(super) use super::disc::point;

@@ -1,4 +1,5 @@
-//! An image, more often where it is brighter: first the row, then the column. The longer side goes from -1 to 1.
+//! An image. Points are chosen in proportion to its brightness: first the row, then the column. The longer side of the
+//! image goes from -1 to 1.
 
 use crate::scene::Mask;
 
@@ -15,7 +16,7 @@ pub(super) fn point(mask: &Mask, xi: [f64; 2]) -> ([f64; 2], f64) {
     (point, 1.0)
 }
 
-/// How many cells lie before the point up to which this share of the light is, with a fraction.
+/// The point of a row of cells before which this share of the light lies, in cells from the start of the row.
 fn place(light: &[f64], share: f64) -> f64 {
     let mut left = share * light.iter().sum::<f64>();
     for (cell, light) in light.iter().enumerate() {

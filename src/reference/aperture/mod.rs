@@ -1,4 +1,4 @@
-//! The opening that light comes in through: a file a kind, with the name of its shader in `shaders/aperture`.
+//! The aperture, through which light comes in. Each kind is a file with the name of its shader in `shaders/aperture`.
 
 mod blades;
 mod cats_eye;
@@ -8,9 +8,9 @@ mod image;
 
 use crate::scene::{Aperture, ApertureKind, CameraModel};
 
-/// A point of the opening, of radius one, for sample values in the unit square; and the share of light that
-/// is let in on the way to `film`, which is where the film point lies from the picture's middle as a share of
-/// the way to a corner, y up.
+/// Maps sample values in the unit square to a point of the aperture, whose radius is one. Also returns the share of the
+/// light through this point that reaches the film point `film`, which is given relative to the picture's centre, y up,
+/// in units of the distance to a corner.
 pub fn point(aperture: &Aperture, model: CameraModel, film: [f64; 2], xi: [f64; 2]) -> ([f64; 2], f64) {
     let [half_width, half_height] = aperture.stretch();
     let (point, share) = match aperture.kind(model) {

@@ -1,4 +1,5 @@
-//! K. Suffern, chapters 14 to 16 and 24.
+//! Whitted's integrator: direct light with hard shadows, ambient light, and mirrors. K. Suffern, chapters 14 to 16 and
+//! 24.
 
 use crate::reference::Ray;
 use crate::reference::intersect::intersect;
@@ -8,11 +9,11 @@ use crate::reference::surface::Surface;
 use crate::scene::{Material, Scene};
 use glam::DVec3;
 
-/// How far a secondary ray must go before it hits, as a share of the coordinates at hand: the
+/// A secondary ray ignores hits that are nearer than this, relative to the coordinates of its origin. It is the
 /// rounding error of f64 with room to spare.
 const LEAST_DISTANCE: f64 = 1e-10;
 
-/// What arrives along `ray`, with at most `bounces` reflections.
+/// The radiance that arrives along `ray`, with at most `bounces` reflections.
 pub fn radiance(scene: &Scene, ray: Ray, bounces: u32) -> DVec3 {
     radiance_beyond(scene, ray, 0.0, bounces)
 }

@@ -1,4 +1,4 @@
-//! Light along parallel lines, from beyond everything.
+//! Light along parallel lines, from an infinite distance.
 
 use crate::scene::DirectionalLight;
 use glam::DVec3;

@@ -1,4 +1,4 @@
-//! Where light comes from: a file a kind, with the name of its shader in `shaders/light`.
+//! Lights. Each kind is a file with the name of its shader in `shaders/light`.
 
 mod background;
 mod directional;
@@ -7,7 +7,7 @@ mod point;
 use crate::scene::{LightKind, Scene};
 use glam::DVec3;
 
-/// The direction to a light from a point, and its distance.
+/// The direction from a point to a light, and the distance of the light.
 pub(super) fn arriving(light: &LightKind, from: DVec3) -> (DVec3, f64) {
     match light {
         LightKind::Point(light) => point::arriving(light, from),
@@ -15,7 +15,7 @@ pub(super) fn arriving(light: &LightKind, from: DVec3) -> (DVec3, f64) {
     }
 }
 
-/// What a ray of this direction sees that meets nothing.
+/// The radiance along a ray that has this direction and meets no surface.
 pub(super) fn background(scene: &Scene, direction: DVec3) -> DVec3 {
     background::radiance(&scene.background, direction)
 }

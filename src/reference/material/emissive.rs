@@ -1,4 +1,4 @@
-//! Gives off light.
+//! Emits light.
 
 use super::Kind;
 use crate::scene::Emissive;

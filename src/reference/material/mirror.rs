@@ -1,4 +1,4 @@
-//! Mirrors, and may show highlights of the lights.
+//! A mirror, which may also show highlights of the lights.
 
 use super::Kind;
 use super::phong::highlight;
@@ -11,7 +11,8 @@ impl Kind for Mirror {
         DVec3::splat(highlight(self.ks, self.exponent, at, to_light, to_viewer))
     }
 
-    /// Mirrored by the shading normal; what would then enter the surface is mirrored out of it again.
+    /// The shading normal mirrors the direction. If the result would enter the surface, it is mirrored out of the
+    /// surface again.
     fn sample(&self, at: &Surface, direction: DVec3) -> Option<(DVec3, DVec3)> {
         let mirrored = direction - 2.0 * direction.dot(at.shading_normal) * at.shading_normal;
         let mirrored = mirrored - 2.0 * mirrored.dot(at.normal).min(0.0) * at.normal;

@@ -1,4 +1,5 @@
-//! What surfaces do with light: a file a kind, with the name of its shader in `shaders/material`.
+//! Materials, which say what surfaces do with light. Each kind is a file with the name of its shader in
+//! `shaders/material`.
 
 mod emissive;
 mod matte;
@@ -9,30 +10,31 @@ use super::surface::Surface;
 use crate::scene::Material;
 use glam::DVec3;
 
-/// What a kind of material does. See `shaders/material/record.glsl`.
+/// What a kind of material does with light. See `shaders/material/record.glsl`.
 pub(super) trait Kind {
-    /// The radiance that it gives off.
+    /// The radiance that the material emits.
     fn emission(&self) -> DVec3 {
         DVec3::ZERO
     }
 
-    /// The share of the ambient light that it reflects.
+    /// The share of the ambient light that the material reflects.
     fn ambient(&self, _at: &Surface) -> DVec3 {
         DVec3::ZERO
     }
 
-    /// The share of a light's radiance, by the cosine, that it reflects towards the viewer.
+    /// The BRDF: the radiance reflected towards the viewer, divided by the light's radiance and by the cosine.
     fn f(&self, _at: &Surface, _to_light: DVec3, _to_viewer: DVec3) -> DVec3 {
         DVec3::ZERO
     }
 
-    /// Where a ray of this direction goes on, and by how much what arrives from there counts.
+    /// The direction in which a ray with this direction goes on, and the weight of the radiance that arrives from
+    /// there.
     fn sample(&self, _at: &Surface, _direction: DVec3) -> Option<(DVec3, DVec3)> {
         None
     }
 }
 
-/// What a material does.
+/// The functions of a material's kind.
 pub(super) fn kind_of(material: &Material) -> &dyn Kind {
     match material {
         Material::Matte(of) => of,

@@ -1,4 +1,4 @@
-//! Matte, with a highlight around the direction of the mirrored light.
+//! A matte material with a highlight around the direction of the mirrored light.
 
 use super::Kind;
 use crate::reference::surface::Surface;
@@ -15,7 +15,7 @@ impl Kind for Phong {
     }
 }
 
-/// What a highlight reflects of a light towards the viewer.
+/// The share of a light's radiance that the highlight reflects towards the viewer.
 pub(super) fn highlight(ks: f32, exponent: f32, at: &Surface, to_light: DVec3, to_viewer: DVec3) -> f64 {
     let mirrored = 2.0 * at.shading_normal.dot(to_light) * at.shading_normal - to_light;
     let cosine = mirrored.dot(to_viewer);

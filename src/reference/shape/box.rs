@@ -1,4 +1,4 @@
-//! The six faces one by one.
+//! Tests the six faces of a box one by one.
 
 use super::{Crossing, Ray};
 use crate::scene::Box;

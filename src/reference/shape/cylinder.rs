@@ -1,6 +1,6 @@
-//! |o + t d - c|^2 = r^2, of what is across the axis.
+//! Solves |o + t d - c|^2 = r^2 for t, with the components of the vectors that are perpendicular to the axis.
 
-use super::{Crossing, Ray, across_normal};
+use super::{Crossing, Ray, tangent_coordinates};
 use crate::scene::Cylinder;
 use glam::DVec2;
 use std::f64::consts::TAU;
@@ -10,7 +10,7 @@ pub(super) fn crossing(cylinder: &Cylinder, ray: Ray, least: f64) -> Option<Cros
     let length = cylinder.start.distance(cylinder.end);
     let radius = f64::from(cylinder.radius);
     let from_start = ray.origin - cylinder.start;
-    // The cross product with the axis turns what is across it by a right angle, and leaves its length.
+    // The cross product with the axis turns the perpendicular component by a right angle, and keeps its length.
     let (origin, direction) = (from_start.cross(axis), ray.direction.cross(axis));
     let (a, half_b) = (direction.length_squared(), origin.dot(direction));
     let discriminant = half_b * half_b - a * (origin.length_squared() - radius * radius);
@@ -23,7 +23,7 @@ pub(super) fn crossing(cylinder: &Cylinder, ray: Ray, least: f64) -> Option<Cros
     let distance = [(-half_b - root) / a, (-half_b + root) / a].into_iter().find(met)?;
     let at = from_start + distance * ray.direction;
     let normal = (at - height(distance) * axis) / radius;
-    let turned = across_normal(axis, normal);
+    let turned = tangent_coordinates(axis, normal);
     let uv = DVec2::new(0.5 + turned.y.atan2(turned.x) / TAU, height(distance) / length);
     Some(Crossing::flat(distance, normal, uv))
 }

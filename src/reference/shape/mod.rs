@@ -1,4 +1,5 @@
-//! Rays against shapes, by the textbook: a file a kind, with the name of its shader in `shaders/shape`.
+//! Intersects rays with shapes, by textbook formulas. Each kind is a file with the name of its shader in
+//! `shaders/shape`.
 
 mod r#box;
 mod cylinder;
@@ -13,26 +14,26 @@ use glam::{DQuat, DVec2, DVec3};
 /// Where a ray meets a shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crossing {
-    /// Along the ray.
+    /// The distance along the ray.
     pub distance: f64,
-    /// Across the surface, of unit length: outwards, or as the shape is wound.
+    /// The unit normal of the surface, which points outwards, or as the winding of a triangle says.
     pub normal: DVec3,
-    /// What light and mirrors see, of unit length, on the same side.
+    /// The unit normal that shading and mirrors use, on the same side.
     pub shading_normal: DVec3,
-    /// Where on the shape: see the shaders.
+    /// The surface coordinates: see the shaders of the kinds.
     pub uv: DVec2,
 }
 
 impl Crossing {
-    /// Where light and mirrors see the surface's own normal.
+    /// A crossing whose shading normal is the normal of the surface.
     fn flat(distance: f64, normal: DVec3, uv: DVec2) -> Self {
         Self { distance, normal, shading_normal: normal, uv }
     }
 }
 
-/// The coordinates of a vector along two directions across a unit normal: the world's axes x and z, turned with the
-/// normal from the vertical that it is nearer to.
-fn across_normal(normal: DVec3, vector: DVec3) -> DVec2 {
+/// The coordinates of a vector along two tangents, which are perpendicular to a unit normal. They are the world's axes
+/// x and z, turned by the rotation that takes the vertical nearest to the normal to the normal.
+fn tangent_coordinates(normal: DVec3, vector: DVec3) -> DVec2 {
     let vertical = if normal.y < 0.0 { DVec3::NEG_Y } else { DVec3::Y };
     let turned_back = DQuat::from_rotation_arc(vertical, normal).inverse() * vector;
     DVec2::new(turned_back.x, turned_back.z)

@@ -1,4 +1,4 @@
-//! |o + t d - c|^2 = r^2.
+//! Solves |o + t d - c|^2 = r^2 for t.
 
 use super::{Crossing, Ray};
 use crate::scene::Sphere;

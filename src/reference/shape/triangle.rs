@@ -1,11 +1,11 @@
-//! o + t d = a + b1 (b - a) + b2 (c - a), by Cramer's rule.
+//! Solves o + t d = a + b1 (b - a) + b2 (c - a) for t, b1 and b2, with the inverse of a matrix.
 
 use super::{Crossing, Ray};
 use crate::scene::Triangle;
 use glam::{DMat3, DVec2, DVec3};
 
 pub(super) fn crossing(triangle: &Triangle, ray: Ray, least: f64) -> Option<Crossing> {
-    // From there u and v are counted.
+    // The surface coordinates u and v start at this corner.
     let triangle = triangle.from_widest_corner();
     let [a, b, c] = triangle.vertices;
     let (edge1, edge2) = (b - a, c - a);

@@ -1,4 +1,4 @@
-//! One colour everywhere.
+//! The same colour everywhere.
 
 use crate::scene::Constant;
 use glam::DVec3;

@@ -1,4 +1,4 @@
-//! Colours of surfaces: a file a kind, with the name of its shader in `shaders/texture`.
+//! Textures, which are the colours of surfaces. Each kind is a file with the name of its shader in `shaders/texture`.
 
 mod checker;
 mod constant;
