@@ -71,7 +71,7 @@ fn p_lies_where_the_device_focuses() {
                 near("a rim", fan[0][0], -rim)?;
                 near("a rim", fan[fan.len() - 1][0], rim)?;
             }
-            let [width, height] = diagram.half_opening;
+            let [width, height] = diagram.half_aperture;
             near("the opening", DVec3::new(width, height, 0.0), DVec3::new(half_width, radius, 0.0))?;
             near("the centre", diagram.centre[0], DVec3::ZERO)?;
             let hit = diagram.hit.expect("a surface");
@@ -134,5 +134,5 @@ fn light_spreads_on_the_film_over_the_circle_of_confusion() {
     }
     settings.estimator.model = CameraModel::Pinhole;
     let diagram = drawn(&gpu, &settings, [20.5, 38.5]).expect("it is drawn");
-    assert!(diagram.half_opening == [0.0; 2] && diagram.image.blur < 1e-12, "a pinhole blurs nothing");
+    assert!(diagram.half_aperture == [0.0; 2] && diagram.image.blur < 1e-12, "a pinhole blurs nothing");
 }

@@ -23,7 +23,7 @@ pub type Line = [DVec3; 2];
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagram {
     /// Half the width and half the height of the aperture; 0 for a pinhole.
-    pub half_opening: [f64; 2],
+    pub half_aperture: [f64; 2],
     /// The depth at which the drawing ends.
     pub reach: f64,
     /// The depth at which the view plane is drawn.
@@ -104,10 +104,10 @@ impl Diagram {
         let half_height = (0.5 * camera.vfov_radians).tan() * view_plane;
         let (fan_up, fan_across) = (lines(picked.fan_up()), lines(picked.fan_across()));
         // The outermost rays start on the rim.
-        let half_opening =
+        let half_aperture =
             [fan_across.last().map_or(0.0, |ray| ray[0].x), fan_up.last().map_or(0.0, |ray| ray[0].y)];
         let mut diagram = Self {
-            half_opening,
+            half_aperture,
             reach,
             view_plane,
             half_picture: [half_height * width / height, half_height],
@@ -143,7 +143,7 @@ impl Diagram {
         let light = |fan: &[Line]| fan.iter().map(|ray| [ray[0], refracted(ray[0], end)]).collect();
         (self.image.light_up, self.image.light_across) = (light(&self.fan_up), light(&self.fan_across));
         // The circle is as wide as the wider of the two fans of light.
-        let radius = self.half_opening[0].max(self.half_opening[1]);
+        let radius = self.half_aperture[0].max(self.half_aperture[1]);
         let rim = |side: f64| refracted(DVec3::new(0.0, side * radius, 0.0), v).y;
         self.image.blur = (rim(1.0) - rim(-1.0)).abs();
         self.image.blur_pixels = self.image.blur * pixels_per_unit;

@@ -33,17 +33,22 @@ pub const PRESETS: [Preset; 6] = [
     Preset {
         name: "pinhole",
         label: "Pinhole",
-        help: "A hole without size: everything is sharp, as in most computer graphics.",
+        help: "A hole of no size: everything is sharp, as in most computer graphics.",
         effect: Effect::Pinhole,
     },
     fifty(
         "50mm-f1.8",
         "50 mm f/1.8",
-        "The normal lens that many photographers start with. Focused near by it frames a little wider than a real one: as 45.5 mm would at half a metre.",
+        "The normal lens that many photographers start with. Focused at close range, it has a wider field of view than a real one: that of 45.5 mm at half a metre.",
         1.8,
     ),
-    fifty("50mm-f1.4", "50 mm f/1.4", "Its wider sister: lets in 1.7 times the light, and blurs more.", 1.4),
-    fifty("50mm-f1.2", "50 mm f/1.2", "As wide as such lenses come: little more than a plane is sharp.", 1.2),
+    fifty("50mm-f1.4", "50 mm f/1.4", "A wider lens: it lets in 1.7 times the light, and blurs more.", 1.4),
+    fifty(
+        "50mm-f1.2",
+        "50 mm f/1.2",
+        "About as wide as such lenses get: little more than a plane is sharp.",
+        1.2,
+    ),
     Preset {
         name: "eye-2mm",
         label: "Eye, 2 mm pupil",
@@ -53,7 +58,7 @@ pub const PRESETS: [Preset; 6] = [
     Preset {
         name: "eye-8mm",
         label: "Eye, 8 mm pupil",
-        help: "The pupil of a young eye in the dark: it sees less depth sharp.",
+        help: "The pupil of a young eye in the dark: its depth of field is smaller.",
         effect: Effect::Pupil { diameter_mm: 8.0 },
     },
 ];

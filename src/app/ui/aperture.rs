@@ -21,7 +21,7 @@ const SHAPES: [(Shape, &str, &str); 4] = [
     (
         Shape::CatsEye,
         "Cat's eye",
-        "The rim of a real lens cuts off light that comes in at an angle: discs turn into cat's eyes towards the corners, which darken.",
+        "The rim of a real lens cuts off light that comes in at an angle. So discs become cat's eyes towards the corners of the picture, which darken.",
     ),
     (Shape::Image, "Image", "What is out of focus blurs into the shape of a PNG file (--aperture-image)."),
 ];
@@ -50,7 +50,7 @@ impl Panel {
             Shape::Image => image.is_some(),
         };
         let shown = SHAPES.iter().find(|entry| entry.0 == shape).map_or("", |entry| entry.1);
-        let help = "The shape of the opening, which is the shape of the blur.";
+        let help = "The shape of the aperture, which is also the shape of the blur.";
         combo(ui, "Aperture", shown, help, layout, |layout| {
             for (choice, label, help) in SHAPES.into_iter().filter(|entry| offered(entry.0)) {
                 if ui.selectable_config(label).selected(choice == shape).build() && choice != shape {

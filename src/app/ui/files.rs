@@ -39,7 +39,7 @@ impl Panel {
         named(
             ui,
             "Picture file",
-            "Where the picture is saved: .png as it is shown, .exr for linear light. It carries its settings, so that it can be opened again.",
+            "The file for the picture: .png for the picture as it is shown, .exr for linear light. It contains the settings, so that it can be opened again.",
             layout,
             |id| {
                 edit(ui, id, &mut files.picture);
@@ -57,12 +57,12 @@ impl Panel {
         button(
             "Copy command line",
             Action::CopyCommand,
-            "Puts the command that renders this picture into the clipboard (Ctrl+C).",
+            "Copies the command that renders this picture to the clipboard (Ctrl+C).",
         );
         named(
             ui,
             "Scene file",
-            "Where the scene is saved, a .toml, with this camera, lens and view. Open it like any other.",
+            "The .toml file for the scene with this camera, lens and view. It can be opened like any other scene.",
             layout,
             |id| {
                 edit(ui, id, &mut files.scene);

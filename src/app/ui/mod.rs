@@ -92,25 +92,25 @@ impl Panel {
                 note_item(ui, "Autofocus", &mut layout);
                 tooltip(
                     ui,
-                    "Focuses on what is in the middle of the picture. Right-click anything, or point at it and press F, to focus on that instead; Ctrl and the wheel move the plane by hand.",
+                    "Focuses on what is in the middle of the picture. To focus on something else, right-click it, or point at it and press F. Ctrl and the wheel move the focal plane.",
                 );
                 ui.same_line();
                 button("Reset", Action::Reset);
                 note_item(ui, "Reset", &mut layout);
-                tooltip(ui, "Back to the settings that the scene was opened with.");
+                tooltip(ui, "Restores the settings that the scene was opened with.");
                 ui.same_line();
                 ui.checkbox("Optics", &mut self.optics.open);
                 note_item(ui, "Optics", &mut layout);
                 tooltip(
                     ui,
-                    "Draws what the lens does with the light of one pixel, to scale. Click the picture to choose the pixel.",
+                    "Draws to scale what the lens does with the light of one pixel. Click the picture to choose the pixel.",
                 );
                 for (name, asks, help) in [
-                    ("Undo", Action::Undo, "Takes the last change back (Ctrl+Z)."),
-                    ("Redo", Action::Redo, "Makes it again (Ctrl+Shift+Z)."),
-                    ("Compare", Action::Compare, "Holds this picture on the left, to see beside it what you change (C). Once more lets it go."),
-                    (if self.paused { "Go on" } else { "Pause" }, Action::Pause, "The picture stays as it is, and the device rests (P)."),
-                    ("?", Action::Keys, "What mouse and keys do (?)."),
+                    ("Undo", Action::Undo, "Undoes the last change (Ctrl+Z)."),
+                    ("Redo", Action::Redo, "Redoes the change that was undone last (Ctrl+Shift+Z)."),
+                    ("Compare", Action::Compare, "Holds this picture on the left, so that you see your changes beside it (C). Press again to release it."),
+                    (if self.paused { "Go on" } else { "Pause" }, Action::Pause, "Stops rendering; the picture stays as it is (P)."),
+                    ("?", Action::Keys, "Lists what the mouse and the keys do (?)."),
                 ] {
                     button(name, asks);
                     note_item(ui, name, &mut layout);
@@ -128,7 +128,7 @@ impl Panel {
                         action = Some(Action::ResetCamera);
                     }
                     note_item(ui, "Reset camera", layout);
-                    tooltip(ui, "Back to where the scene was opened (Home). Everything else stays.");
+                    tooltip(ui, "Restores the position of the camera that the scene was opened with (Home), and nothing else.");
                 });
                 section(ui, "What is sharp", true, &mut layout, |_| self.numbers(ui, status.picked));
                 section(ui, "Light", false, &mut layout, |layout| self.rows(ui, Part::Light, layout));
@@ -163,7 +163,7 @@ impl Panel {
     fn scene_chooser(&mut self, ui: &Ui, layout: &mut Layout) {
         let mut chosen = None;
         let shown = self.settings.estimator.scene.source.clone();
-        let help = "What is rendered: the built-in scenes, and what was opened.";
+        let help = "The scene: a built-in one, or one that you have opened.";
         combo(ui, "Scene", &shown.to_string_lossy(), help, layout, |layout| {
             for (number, name) in self.scenes.iter().enumerate() {
                 // imgui needs an id, because two scenes may be shown by the same name.

@@ -64,7 +64,10 @@ impl Optics {
         ui.set_next_item_width(110.0);
         ui.slider_config("##rays", RAYS[0], RAYS[1]).display_format("%d rays").build(&mut self.rays);
         note_item(ui, "Rays", layout);
-        tooltip(ui, "How many rays are drawn through the lens. Click the picture for another pixel.");
+        tooltip(
+            ui,
+            "The number of rays that are drawn through the lens. Click the picture to choose another pixel.",
+        );
         ui.same_line();
         ui.set_next_item_width(130.0);
         ui.slider_config("##stretch", 1.0, 50.0)
@@ -74,7 +77,7 @@ impl Optics {
         note_item(ui, "Stretch", layout);
         tooltip(
             ui,
-            "Draws the side and top view higher than they are, as far as there is room, where the lens is too narrow to see.",
+            "Stretches the side and top view vertically, as far as there is room, if the lens is too narrow to see.",
         );
     }
 
@@ -112,7 +115,7 @@ impl Optics {
             View::Side => (&diagram.fan_up, 1),
             View::Top | View::Front => (&diagram.fan_across, 0),
         };
-        let (half, opening) = (diagram.half_picture[axis], diagram.half_opening[axis]);
+        let (half, opening) = (diagram.half_picture[axis], diagram.half_aperture[axis]);
         let points = [Some(diagram.q), diagram.focus.map(|focus| focus.1), diagram.hit];
         let aside = points.into_iter().flatten().map(|point| side.flat(point)[1]);
         let aside: Vec<f64> = aside.chain([half, -half, opening, -opening]).collect();
@@ -181,7 +184,7 @@ fn front(mut paper: Paper<'_>, diagram: &Diagram) {
         let [from, to] = *ray;
         from + (to - from) * (diagram.view_plane / (to - from).z.max(1e-9))
     };
-    let half = diagram.half_opening;
+    let half = diagram.half_aperture;
     let points = [half, half.map(|extent| -extent), View::Front.flat(diagram.q)];
     let bounds = [0, 1].map(|axis| around(&points.map(|point| point[axis])));
     paper.fit(bounds, 1.0, View::Front);
@@ -222,7 +225,7 @@ fn front(mut paper: Paper<'_>, diagram: &Diagram) {
 fn film_side(mut paper: Paper<'_>, diagram: &Diagram) {
     let image = &diagram.image;
     let v = image.film_distance;
-    let [across, opening] = diagram.half_opening;
+    let [across, opening] = diagram.half_aperture;
     let end = image.light_up.first().map_or(-1.08 * v, |line| line[1].z);
     let aside: Vec<f64> = (image.light_up.iter().flatten())
         .map(|point| point.y)
