@@ -188,7 +188,7 @@ fn independent_samples_estimate_the_same_picture() {
     assert!(agreement.is_err(), "a shared pair is not seen: {agreement:?}");
 }
 
-/// Catches a proof that fails where there is nothing but black on both sides: no light over no light is no number.
+/// Catches a proof that fails where there is nothing but black on both sides: no light over no light is not a number.
 #[test]
 fn two_black_pictures_agree() {
     let mut agreement = thinlens::verify::Agreement::default();

@@ -45,7 +45,7 @@ fn x11_is_used_where_no_compositor_answers() {
         (vec![("WAYLAND_DISPLAY", folder.join("dead").into())], "a whole path"),
         (vec![("WAYLAND_DISPLAY", value("wayland-0"))], "no folder"),
         (vec![("WAYLAND_SOCKET", value("99"))], "a socket that is not open"),
-        (vec![("WAYLAND_SOCKET", value("none"))], "a socket that is no number"),
+        (vec![("WAYLAND_SOCKET", value("none"))], "a socket that is not a number"),
         (vec![("WAYLAND_SOCKET", value("99")), ("WAYLAND_DISPLAY", value("dead")), runtime.clone()], "both"),
     ] {
         let mut command = viewer(folder, &[&variables[..], &[("DISPLAY", value(&server.display))]].concat());

@@ -14,7 +14,7 @@ use thinlens::settings::{Settings, quoted};
 const HOUSE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 const SMALL: [&str; 4] = ["-s", "24x18", "-n", "2"];
 
-/// A name of Latin-1, which is no UTF-8.
+/// A name of Latin-1, which is not UTF-8.
 fn latin1(name: &[u8]) -> OsString {
     OsStr::from_bytes(name).to_os_string()
 }

@@ -315,7 +315,7 @@ fn what_is_no_obj_is_called_what_it_is() {
     ] {
         let error = load(bytes, &[]).expect_err("no OBJ").to_string();
         assert!(
-            error.contains("this is no OBJ file, it is") && error.contains(part),
+            error.contains("this is not an OBJ file, it is") && error.contains(part),
             "'{error}' lacks '{part}'"
         );
         assert!(!error.contains('\n') && error.contains("mesh.obj: "), "{error}");

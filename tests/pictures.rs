@@ -168,7 +168,7 @@ fn a_damaged_picture_is_called_that() {
         ("jpeg.png", b"\xff\xd8\xff\xe0\0\x10JFIF\0".to_vec(), "it is a JPEG picture"),
         ("jpeg.exr", b"\xff\xd8\xff\xe0\0\x10JFIF\0".to_vec(), "it is a JPEG picture"),
         ("webp.png", b"RIFF\x10\0\0\0WEBPVP8 ".to_vec(), "WebP"),
-        ("text.png", b"what is this?".to_vec(), "it is no picture"),
+        ("text.png", b"what is this?".to_vec(), "it is not a picture"),
         ("lfs.png", b"version https://git-lfs.github.com/spec/v1\n".to_vec(), "git lfs pull"),
         ("cut.png", cut_png.to_vec(), "damaged"),
         ("huge.png", huge_text, "damaged"),

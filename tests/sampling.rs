@@ -137,7 +137,7 @@ fn lens_points_fill_the_disk_evenly() {
         let variances = [1.0 / 4.0, 1.0 / 4.0, 1.0 / 16.0, 1.0 / 16.0, 1.0 / 24.0];
         let mut least = 1.0_f64;
         for (sum, variance) in sums.iter().zip(variances) {
-            ensure!(sum.is_finite(), "a point that is no number");
+            ensure!(sum.is_finite(), "a point that is not a number");
             least = least.min(normal_p(sum / (variance * squares.len() as f64).sqrt()));
             ensure!(least > sidak(6), "the moments {sums:?} of {} points are off", squares.len());
         }

@@ -47,7 +47,7 @@ impl Origin {
             Some(input_file::PNG) => input_file::guarded(|| text_of_png(file)),
             Some(input_file::EXR) => input_file::guarded(|| text_of_exr(file)),
             Some(kind) => return Err(without(format!("it is {kind}, whatever its name"))),
-            None => return Err(without("it is no picture, whatever its name".into())),
+            None => return Err(without("it is not a picture, whatever its name".into())),
         };
         let text = text.unwrap_or_else(|| Err("the file is damaged".into())).map_err(without)?;
         let text =

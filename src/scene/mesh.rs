@@ -59,7 +59,7 @@ impl Mesh {
         let obj = obj::parse(&text).map_err(|error| match error {
             ObjError::Line(line, message) => Error::Scene { file: file.clone(), line, message },
             ObjError::Foreign(Foreign(what)) => {
-                Error::Mesh { file: file.clone(), message: format!("this is no OBJ file, it is {what}") }
+                Error::Mesh { file: file.clone(), message: format!("this is not an OBJ file, it is {what}") }
             }
         })?;
         if obj.faces.is_empty() {

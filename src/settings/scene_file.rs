@@ -166,7 +166,7 @@ impl Files {
 fn not_text(path: &Path) -> Error {
     let path = quoted(path.as_os_str());
     Error::OutOfRange(format!(
-        "the scene cannot be saved: it names the file {path}, whose name is no UTF-8, and a scene file holds only \
+        "the scene cannot be saved: it names the file {path}, whose name is not UTF-8, and a scene file holds only \
          that; rename the file"
     ))
 }

@@ -75,7 +75,7 @@ impl Tally {
 pub(super) enum ObjError {
     /// A line is wrong: its number, from 1.
     Line(usize, String),
-    /// The file is no OBJ text.
+    /// The file is not an OBJ text.
     Foreign(Foreign),
 }
 
@@ -166,7 +166,7 @@ impl Reader {
         for word in words(rest) {
             let corner = self.corner(number, word).ok_or_else(|| {
                 let word = String::from_utf8_lossy(word);
-                format!("'{word}' is no corner of a face; one is v, v/vt, v//vn or v/vt/vn, counted from 1")
+                format!("'{word}' is not a corner of a face; a corner is v, v/vt, v//vn or v/vt/vn, counted from 1")
             })?;
             corners.push(corner);
         }

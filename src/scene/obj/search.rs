@@ -115,7 +115,7 @@ fn lower(name: &[u8]) -> Vec<u8> {
     }
 }
 
-/// A file's name from its bytes. On systems where names are not bytes, a name that is no UTF-8 is not found.
+/// A file's name from its bytes. On systems where names are not bytes, a name that is not UTF-8 is not found.
 fn os_str(name: &[u8]) -> Cow<'_, Path> {
     #[cfg(unix)]
     return Cow::Borrowed(Path::new(<OsStr as std::os::unix::ffi::OsStrExt>::from_bytes(name)));

@@ -8,7 +8,7 @@ use memchr::{memchr, memchr2};
 use std::borrow::Cow;
 use std::str::FromStr;
 
-/// Says what a file is that is no OBJ or MTL text, and what to do, in words that follow "it is".
+/// Says what a file is that is not an OBJ or MTL text, and what to do, in words that follow "it is".
 #[derive(Debug)]
 pub(in super::super) struct Foreign(pub(in super::super) &'static str);
 
@@ -235,7 +235,7 @@ pub(super) fn length_of(word: &[u8]) -> Result<f64, String> {
             true => "write a point for the comma",
             false => "export the mesh again, or in other units",
         };
-        format!("'{}' is no number from -{limit:e} to {limit:e}; {advice}", String::from_utf8_lossy(word))
+        format!("'{}' is not a number from -{limit:e} to {limit:e}; {advice}", String::from_utf8_lossy(word))
     })
 }
 

@@ -316,7 +316,7 @@ fn not_toml(text: &str, error: &toml::de::Error) -> ParseError {
         _ if message.starts_with("string values must be quoted") && word.is_empty() => {
             "here a value is missing".into()
         }
-        _ if is_number => format!("'{word}' is no number; one is written like 0.5, -2 or 1e-3"),
+        _ if is_number => format!("'{word}' is not a number; one is written like 0.5, -2 or 1e-3"),
         _ if message.starts_with("string values must be quoted") => {
             format!("a name stands in quotes: \"{word}\"")
         }
@@ -325,7 +325,7 @@ fn not_toml(text: &str, error: &toml::de::Error) -> ParseError {
                 .into()
         }
         _ if message.starts_with("invalid boolean") => "write true or false, in small letters".into(),
-        other => format!("this is no TOML: {}", other.replace('\n', "; ")),
+        other => format!("this is not TOML: {}", other.replace('\n', "; ")),
     };
     ParseError { span, message }
 }
