@@ -3,10 +3,13 @@
 mod common;
 
 use common::scenes::EVERYTHING;
-use common::{Gpu, bits, settings_of, small};
+use common::{Gpu, bits, scene_of, settings_of, small};
+use thinlens::gpu_types::SceneData;
+use thinlens::passes::SceneBuffers;
 use thinlens::renderer::{Picked, Question, Renderer};
 use thinlens::scene::{ApertureImage, CameraModel, Overlay};
 use thinlens::settings::{Sampler, Settings};
+use thinlens::vulkan::Traits;
 
 /// A scene in which things move.
 const MOVING: &str = "[camera]\neye = [0, 1, 6]\nlook_at = [0, 0.5, 0]\nvfov_degrees = 50\nlens_diameter = 0.2\n\
@@ -92,4 +95,23 @@ fn what_changes_is_made_anew() {
             assert!(all(&mut renderer) == fresh[number], "'{name}' is not what a new renderer makes of it");
         }
     }
+}
+
+/// Catches a number of things that pipelines are compiled for on a GPU: opening another scene would compile them anew.
+#[test]
+fn scenes_of_the_same_kinds_share_their_pipelines_on_gpus() {
+    let constants = |gpu: &Gpu, count: usize| {
+        let mut toml = MOVING.to_owned();
+        for i in 0..count {
+            toml += &format!("[[sphere]]\ncenter = [{i}, 0, -3]\nradius = 0.4\nmaterial = \"m{i}\"\n");
+            toml += &format!("[matte.m{i}]\nka = 0.1\nkd = 0.5\ncolor = [1, 1, 1]\n");
+            toml += &format!("[[point]]\nposition = [{i}, 5, 0]\nradiance = 1\nshadows = {}\n", i % 2 == 0);
+        }
+        let scene = SceneData::new(&scene_of(&toml), 0.1);
+        SceneBuffers::new(gpu.device(), &scene).expect("a scene").constants().to_vec()
+    };
+    let gpu = Gpu::used_as(Some(Traits::GPU));
+    assert_eq!(constants(&gpu, 2), constants(&gpu, 40), "scenes without a tree");
+    assert_eq!(constants(&gpu, 90), constants(&gpu, 120), "scenes with one");
+    assert_ne!(constants(&gpu, 40), constants(&gpu, 90), "a tree is compiled in only where there is one");
 }

@@ -32,14 +32,14 @@ vec3 shade(Material material, vec3 color, SurfacePoint at, vec3 to_viewer, inout
     }
     // This loop tests its condition at the end. If it did so at the start, Mesa's software device would run it once
     // more than needed, because that device checks only at the end whether any invocation goes on.
-    uint lights = SHADOW_LIGHT_COUNT;
+    uint lights = shadow_light_count();
     if (lights > 0u) {
         uint i = 0u;
         do {
             sum += reflected_light(material, color, get_light(i), true, at, to_viewer, rays, given_up);
         } while (++i < lights);
     }
-    for (uint i = SHADOW_LIGHT_COUNT; i < LIGHT_COUNT; ++i) {
+    for (uint i = lights, end = light_count(); i < end; ++i) {
         sum += reflected_light(material, color, get_light(i), false, at, to_viewer, rays, given_up);
     }
     return sum;

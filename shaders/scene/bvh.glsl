@@ -16,6 +16,7 @@ const float BOX_SLACK = 1.0 + 1e-6;
 layout(constant_id = ID_TREE_DEPTH) const uint TREE_DEPTH = 0u; // 0: no tree
 // A ray that needs more steps than this is given up: Mesa's software device would end its loop silently later on.
 layout(constant_id = ID_MOST_TREE_STEPS) const uint MOST_TREE_STEPS = 1024u;
+uint most_tree_steps() { if (SCENE_IS_KEPT == 1u) { return MOST_TREE_STEPS; } return counts.most_tree_steps; }
 
 // A node: the bounding boxes of its children. Their planes lie on a grid that each node has for itself.
 struct TreeNode {
@@ -130,6 +131,7 @@ float search_tree(Ray ray, vec3 inverse_direction, float limit, bool any_will_do
     float distance = MISS;
     nearest = 0u;
     uint steps = 0u;
+    uint most_steps = most_tree_steps();
     stack[TREE_DEPTH] = NO_CHILDREN;
     [[unroll]] for (uint i = 0u; i < TREE_DEPTH; ++i) {
         stack[i] = NO_CHILDREN;
@@ -166,7 +168,7 @@ float search_tree(Ray ray, vec3 inverse_direction, float limit, bool any_will_do
         }
         searching = children != NO_CHILDREN && !(any_will_do && distance < limit);
         ++steps;
-    } while (searching && steps < MOST_TREE_STEPS);
+    } while (searching && steps < most_steps);
     given_up = given_up || searching;
     return distance < limit ? distance : MISS;
 }

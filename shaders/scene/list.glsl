@@ -1,14 +1,19 @@
-// Finds the nearest shape along a ray by testing each shape of the list. The list is sorted by kind, and the end of
-// each kind's range is a specialization constant, so that each loop has one kind and a fixed number of iterations.
+// Finds the nearest shape along a ray by testing each shape of the list. The list is sorted by kind, so that each loop
+// has one kind.
 
 #ifndef LIST_GLSL
 #define LIST_GLSL
 
 void keep_nearer(inout Nearest nearest, float distance, uint i) {
     if (distance < nearest.distance) {
-        nearest = Nearest(distance, LIST_BEGIN + i);
+        nearest = Nearest(distance, list_begin() + i);
     }
 }
+
+// Goes through the shapes of a kind.
+#define FOR_EACH_LISTED(KIND) \
+    if (has_kind(SHAPE_KINDS, SHAPE_##KIND)) \
+        [[unroll]] for (uint i = range_begin(SHAPE_##KIND, KIND##_BEGIN), end = range_end(SHAPE_##KIND, KIND##_END); i < end; ++i)
 
 // A bounded shape of the list, moved to where it is at the time of the ray.
 #define LISTED_NOW(kind_) \
@@ -19,7 +24,7 @@ void keep_nearer(inout Nearest nearest, float distance, uint i) {
 
 void find_bounded(Ray ray, vec3 inverse_direction, inout Nearest nearest) {
 #define FIND_BOUNDED(KIND, kind_) \
-    [[unroll]] for (uint i = KIND##_BEGIN; i < KIND##_END; ++i) { \
+    FOR_EACH_LISTED(KIND) { \
         LISTED_NOW(kind_) \
         keep_nearer(nearest, kind_##_distance(ray, inverse_direction, shape), i); \
     }
@@ -28,7 +33,7 @@ void find_bounded(Ray ray, vec3 inverse_direction, inout Nearest nearest) {
 
 void find_unbounded(Ray ray, vec3 inverse_direction, inout Nearest nearest) {
 #define FIND_UNBOUNDED(KIND, kind_) \
-    for (uint i = KIND##_BEGIN; i < KIND##_END; ++i) { \
+    FOR_EACH_LISTED(KIND) { \
         keep_nearer(nearest, kind_##_distance(ray, inverse_direction, get_listed(i)), i); \
     }
     FOR_EACH_UNBOUNDED_KIND(FIND_UNBOUNDED)
@@ -80,7 +85,7 @@ Hit hit_in_list(Ray ray, vec3 inverse_direction, Nearest nearest, vec3 position)
 float bounded_distance(Ray ray, vec3 inverse_direction) {
     float nearest = MISS;
 #define BOUNDED_DISTANCE(KIND, kind_) \
-    [[unroll]] for (uint i = KIND##_BEGIN; i < KIND##_END; ++i) { \
+    FOR_EACH_LISTED(KIND) { \
         LISTED_NOW(kind_) \
         nearest = smaller(nearest, kind_##_distance(ray, inverse_direction, shape)); \
     }
@@ -91,7 +96,7 @@ float bounded_distance(Ray ray, vec3 inverse_direction) {
 float unbounded_distance(Ray ray, vec3 inverse_direction) {
     float nearest = MISS;
 #define UNBOUNDED_DISTANCE(KIND, kind_) \
-    for (uint i = KIND##_BEGIN; i < KIND##_END; ++i) { \
+    FOR_EACH_LISTED(KIND) { \
         nearest = smaller(nearest, kind_##_distance(ray, inverse_direction, get_listed(i))); \
     }
     FOR_EACH_UNBOUNDED_KIND(UNBOUNDED_DISTANCE)

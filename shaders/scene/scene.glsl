@@ -17,8 +17,10 @@ bool is_of_kind(uint kinds, uint kind_of_thing, uint kind) {
     return has_kind(kinds, kind) && (kinds == 1u << kind || kind_of_thing == kind);
 }
 
-// The numbers of lights and materials are specialization constants, so that loops over them can unroll. For shapes, the
-// constants are where the range of each kind ends in the list: see build.rs.
+// Where the scene is copied, the numbers of lights and materials are specialization constants, so that loops over them
+// can unroll. For shapes, the constants are where the range of each kind ends in the list: see build.rs. Where the scene
+// is not copied, all of these are read from SceneCounts, so that the pipelines of one scene serve every other scene that
+// has things of the same kinds.
 layout(constant_id = ID_LIGHT_COUNT) const uint LIGHT_COUNT = 1u;
 layout(constant_id = ID_SHADOW_LIGHT_COUNT) const uint SHADOW_LIGHT_COUNT = 1u; // these come first, and cast shadows
 layout(constant_id = ID_MATERIAL_COUNT) const uint MATERIAL_COUNT = 1u;
@@ -26,6 +28,15 @@ layout(constant_id = ID_MATERIAL_COUNT) const uint MATERIAL_COUNT = 1u;
 // a buffer lane by lane inside loops and branches, and once for all lanes outside of them, which makes
 // rays about three times as fast. A GPU would run out of registers.
 layout(constant_id = ID_SCENE_IS_KEPT) const uint SCENE_IS_KEPT = 0u;
+
+// The numbers of things that the shaders loop over.
+struct SceneCounts {
+    uint list_ends[SHAPE_KIND_COUNT]; // where each kind's range ends, counted from the first shape of the list
+    uint list_begin; // the record of the list's first shape
+    uint lights;
+    uint shadow_lights; // these come first, and cast shadows
+    uint most_tree_steps; // a ray that needs more is given up
+};
 
 // The kinds of shapes in the scene, a bit for each: the code for all other kinds is left out.
 layout(constant_id = ID_SHAPE_KINDS) const uint SHAPE_KINDS = 0u;
@@ -41,7 +52,17 @@ layout(set = 0, binding = BINDING_VELOCITIES) uniform usamplerBuffer velocities;
 layout(constant_id = ID_LIST_BEGIN) const uint LIST_BEGIN = 0u; // the record of the list's first shape
 layout(set = 0, binding = BINDING_MATERIALS, std430) readonly buffer Materials { Material materials[]; };
 layout(set = 0, binding = BINDING_LIGHTS, std430) readonly buffer Lights { Light lights[]; };
-layout(set = 0, binding = BINDING_ENVIRONMENT, std430) readonly buffer EnvironmentBuffer { Environment environment; };
+layout(set = 0, binding = BINDING_ENVIRONMENT, std430) readonly buffer EnvironmentBuffer {
+    Environment environment;
+    SceneCounts counts;
+};
+
+uint list_begin() { if (SCENE_IS_KEPT == 1u) { return LIST_BEGIN; } return counts.list_begin; }
+uint light_count() { if (SCENE_IS_KEPT == 1u) { return LIGHT_COUNT; } return counts.lights; }
+uint shadow_light_count() { if (SCENE_IS_KEPT == 1u) { return SHADOW_LIGHT_COUNT; } return counts.shadow_lights; }
+// Where a kind of shapes ends in the list; known is the constant.
+uint range_end(uint kind, uint known) { if (SCENE_IS_KEPT == 1u) { return known; } return counts.list_ends[kind]; }
+uint range_begin(uint kind, uint known) { return kind == 0u ? 0u : range_end(kind - 1u, known); }
 
 void fetch_record(uint index, out uvec4 record[3]) {
     int at = int(3u * index);
@@ -107,7 +128,7 @@ void keep_scene() {
     kept_environment = environment;
 }
 
-ShapeRecord get_listed(uint i) { if (SCENE_IS_KEPT == 1u) { return kept_shapes[i]; } return fetch_shape(LIST_BEGIN + i); }
+ShapeRecord get_listed(uint i) { if (SCENE_IS_KEPT == 1u) { return kept_shapes[i]; } return fetch_shape(list_begin() + i); }
 vec3 get_velocity(uint i, ShapeRecord shape) { if (SCENE_IS_KEPT == 1u) { return kept_velocities[i]; } return fetch_velocity(shape.index); }
 Light get_light(uint i) { if (SCENE_IS_KEPT == 1u) { return kept_lights[i]; } return lights[i]; }
 Environment get_environment() { if (SCENE_IS_KEPT == 1u) { return kept_environment; } return environment; }

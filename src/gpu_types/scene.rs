@@ -5,6 +5,7 @@ use super::shape::on_device;
 use super::{Environment, Light, Material, ShapeRecord, TreeNode};
 use crate::interface::shape;
 use crate::scene::{Bvh, Node, Record, SceneRef, Shaded, Shape, Triangle};
+use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
 
 /// If there are more bounded shapes than this, they go into a tree. With fewer, testing each shape is faster.
@@ -16,10 +17,7 @@ pub struct SceneData {
     /// The tree's nodes and shapes, each a [`TreeNode`] or a [`ShapeRecord`], then the shapes of the list, sorted by
     /// their kinds.
     pub records: Vec<[u32; 12]>,
-    /// The record of the list's first shape.
-    pub list_begin: u32,
-    /// The ends of the kinds in the list, from its first shape on.
-    pub list_ends: [u32; shape::NAMES.len()],
+    pub counts: SceneCounts,
     /// A bit for each kind of shape in the list or in the tree.
     pub shape_kinds: u32,
     /// Three corner normals per shape of the tree. Empty if no triangle has normals.
@@ -37,7 +35,6 @@ pub struct SceneData {
     pub lights: Vec<Light>,
     /// A bit for each kind of light.
     pub light_kinds: u32,
-    pub shadow_lights: usize,
     pub environment: Environment,
     /// Whether any material mirrors.
     pub reflects: bool,
@@ -45,6 +42,25 @@ pub struct SceneData {
     pub moves: bool,
     /// Whether the origin of these coordinates is not the scene's own.
     pub shifted: bool,
+}
+
+/// `SceneCounts` of scene.glsl.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct SceneCounts {
+    pub list_ends: [u32; shape::NAMES.len()],
+    pub list_begin: u32,
+    pub lights: u32,
+    pub shadow_lights: u32,
+    pub most_tree_steps: u32,
+}
+
+/// `EnvironmentBuffer` of scene.glsl.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct EnvironmentBuffer {
+    pub environment: Environment,
+    pub counts: SceneCounts,
 }
 
 impl SceneData {
@@ -93,8 +109,13 @@ impl SceneData {
         let materials: Vec<_> = scene.materials.iter().map(|of| Material::new(of, origin)).collect();
         Self {
             records,
-            list_begin: count(nodes.len()),
-            list_ends,
+            counts: SceneCounts {
+                list_ends,
+                list_begin: count(nodes.len()),
+                lights: count(lights.len()),
+                shadow_lights: count(shadowing().count()),
+                most_tree_steps: count(nodes.len()),
+            },
             shape_kinds: bits(shapes.iter().map(|shape| shape.kind)),
             normals: corner_normals(in_tree),
             velocities: all().filter(|_| moves).map(|of| with_zero(floats(of.velocity))).collect(),
@@ -107,7 +128,6 @@ impl SceneData {
             materials,
             light_kinds: bits(lights.iter().map(|light| light.kind)),
             lights,
-            shadow_lights: shadowing().count(),
             environment: Environment::new(scene, reach),
         }
     }

@@ -1,7 +1,7 @@
 //! A scene's buffers on the device, and upper bounds for the work that its rays take.
 
 use crate::error::{Error, Result};
-use crate::gpu_types::SceneData;
+use crate::gpu_types::{EnvironmentBuffer, SceneCounts, SceneData};
 use crate::interface::{SPELLED_OUT_STACK, STACK_INDEX_BITS, binding, constant, shape};
 use crate::vulkan::{Binding, Buffer, Device, TexelBuffer};
 use bytemuck::Pod;
@@ -14,6 +14,9 @@ const MOST_KEPT: usize = 64;
 /// As many records as the bits for a record's index can tell apart in the stack of bvh.glsl.
 const MOST_RECORDS: usize = 1 << STACK_INDEX_BITS;
 
+/// Where the scene is not copied, stacks have multiples of so many entries, so that few pipelines serve all trees.
+const STACK_STEP: u32 = 4;
+
 /// The bits of a sample index, which the Sobol sequence goes through, and the searches in an aperture's image.
 const SAMPLER_LOOP_STEPS: u64 = 24 + 16;
 
@@ -21,6 +24,9 @@ const SAMPLER_LOOP_STEPS: u64 = 24 + 16;
 pub struct SceneBuffers {
     bindings: Vec<(u32, Binding)>,
     constants: Vec<(u32, u32)>,
+    counts: SceneCounts,
+    /// How many entries the stack of the tree has; 0 where there is no tree.
+    tree_depth: u32,
     /// Whether any material mirrors.
     reflects: bool,
 }
@@ -43,75 +49,81 @@ impl SceneBuffers {
             });
         }
         let traits = device.traits();
-        let steps = scene.list_begin.min(traits.max_tree_steps.unwrap_or(u32::MAX));
-        let listed = scene.records.len() - scene.list_begin as usize;
+        let most_tree_steps = scene.counts.most_tree_steps.min(traits.max_tree_steps.unwrap_or(u32::MAX));
+        let counts = SceneCounts { most_tree_steps, ..scene.counts };
+        let listed = scene.records.len() - counts.list_begin as usize;
         let few = listed.max(scene.materials.len()).max(scene.lights.len()) <= MOST_KEPT;
         let kept = traits.keeps_scene && few;
         let bindings = vec![
             (binding::MATERIALS, buffer(device, "materials", &scene.materials)?),
             (binding::LIGHTS, buffer(device, "lights", &scene.lights)?),
-            (binding::ENVIRONMENT, buffer(device, "environment", &[scene.environment])?),
+            (
+                binding::ENVIRONMENT,
+                buffer(
+                    device,
+                    "environment",
+                    &[EnvironmentBuffer { environment: scene.environment, counts }],
+                )?,
+            ),
             (binding::RECORDS, texels(device, "shapes", &scene.records)?),
             (binding::CORNER_NORMALS, texels(device, "corner normals", &scene.normals)?),
             (binding::VELOCITIES, texels(device, "velocities", &scene.velocities)?),
         ];
+        // The shaders read the numbers from the buffer where the scene is not copied: then the same constants, and so
+        // the same pipelines, serve many scenes.
+        let known = |number: u32| if kept { number } else { 0 };
+        let tree_depth = if kept { scene.tree_depth } else { scene.tree_depth.next_multiple_of(STACK_STEP) };
         let mut constants = vec![
-            (constant::LIGHT_COUNT, count(scene.lights.len())),
-            (constant::SHADOW_LIGHT_COUNT, count(scene.shadow_lights)),
-            (constant::MATERIAL_COUNT, count(scene.materials.len().max(1))),
+            (constant::LIGHT_COUNT, known(counts.lights)),
+            (constant::SHADOW_LIGHT_COUNT, known(counts.shadow_lights)),
+            (constant::MATERIAL_COUNT, known(count(scene.materials.len())).max(1)),
             (constant::SCENE_IS_KEPT, kept.into()),
             (constant::SCENE_MOVES, scene.moves.into()),
             (constant::SCENE_IS_SHIFTED, scene.shifted.into()),
-            (constant::TREE_DEPTH, scene.tree_depth),
-            (constant::LIST_BEGIN, scene.list_begin),
+            (constant::TREE_DEPTH, tree_depth),
+            (constant::LIST_BEGIN, known(counts.list_begin)),
             (constant::SHAPE_KINDS, scene.shape_kinds),
             (constant::MATERIAL_KINDS, scene.material_kinds),
             (constant::TEXTURE_KINDS, scene.texture_kinds),
             (constant::LIGHT_KINDS, scene.light_kinds),
             (constant::HAS_CORNER_NORMALS, (!scene.normals.is_empty()).into()),
-            (constant::MOST_TREE_STEPS, steps),
+            (constant::MOST_TREE_STEPS, known(counts.most_tree_steps)),
         ];
-        constants.extend((constant::SHAPE_END..).zip(scene.list_ends));
-        Ok(Self { bindings, constants, reflects: scene.reflects })
-    }
-
-    fn constant(&self, id: u32) -> u32 {
-        self.constants.iter().find(|(of, _)| *of == id).map_or(0, |(_, value)| *value)
+        constants.extend((constant::SHAPE_END..).zip(counts.list_ends.map(known)));
+        Ok(Self { bindings, constants, counts, tree_depth, reflects: scene.reflects })
     }
 
     /// Whether some of the scene's shapes are in a tree.
     pub fn has_tree(&self) -> bool {
-        self.constant(constant::TREE_DEPTH) > 0
+        self.tree_depth > 0
     }
 
     /// The most rays that one sample can need: for each surface, one that reaches it and one from there to each light.
     pub fn most_rays(&self, max_bounces: u32) -> u32 {
-        self.most_surfaces(max_bounces).saturating_mul(1 + self.constant(constant::LIGHT_COUNT))
+        self.most_surfaces(max_bounces).saturating_mul(1 + self.counts.lights)
     }
 
     /// The most iterations that the loops of the trace pass can make for one sample: over shapes for each ray,
     /// over lights and reflections, and in the sampler.
     pub fn most_loop_steps(&self, max_bounces: u32) -> u64 {
-        let of = |id| u64::from(self.constant(id));
-        let too_deep = of(constant::TREE_DEPTH).saturating_sub(SPELLED_OUT_STACK.into());
-        let tree = of(constant::MOST_TREE_STEPS) * (1 + too_deep);
+        let too_deep = u64::from(self.tree_depth.saturating_sub(SPELLED_OUT_STACK));
+        let tree = u64::from(self.counts.most_tree_steps) * (1 + too_deep);
         let shapes = u64::from(self.listed_shapes()) + tree;
-        let lights = of(constant::LIGHT_COUNT);
+        let lights = u64::from(self.counts.lights);
         SAMPLER_LOOP_STEPS + u64::from(self.most_surfaces(max_bounces)) * (1 + shapes + lights * (1 + shapes))
     }
 
     /// Explains [`SceneBuffers::most_loop_steps`] in words, for an error message.
     pub fn most_steps_in_words(&self, max_bounces: u32) -> String {
-        let of = |id| self.constant(id);
         // The range of the unbounded kinds is the last.
-        let bounded = of(constant::SHAPE_END + shape::FIRST_UNBOUNDED - 1);
+        let bounded = self.counts.list_ends[shape::FIRST_UNBOUNDED as usize - 1];
         let planes = self.listed_shapes() - bounded;
         let shapes = match bounded {
-            0 => format!("up to {} steps in the tree of shapes", of(constant::MOST_TREE_STEPS)),
+            0 => format!("up to {} steps in the tree of shapes", self.counts.most_tree_steps),
             listed => format!("{listed} shapes"),
         };
         let reflections = self.most_surfaces(max_bounces) - 1;
-        let lights = of(constant::LIGHT_COUNT);
+        let lights = self.counts.lights;
         format!(
             "{reflections} reflections (--max-bounces), {lights} lights at each surface, and for every ray {planes} \
              planes and {shapes}"
@@ -120,7 +132,7 @@ impl SceneBuffers {
 
     /// The number of shapes in the list.
     fn listed_shapes(&self) -> u32 {
-        self.constant(constant::SHAPE_END + shape::NAMES.len() as u32 - 1)
+        self.counts.list_ends[shape::NAMES.len() - 1]
     }
 
     fn most_surfaces(&self, max_bounces: u32) -> u32 {

@@ -40,9 +40,13 @@ pub struct Gpu {
 impl Gpu {
     /// The best device. No device, or no validation layer, fails the test.
     pub fn new() -> Self {
+        Self::used_as(as_gpu().then_some(Traits::GPU))
+    }
+
+    /// Likewise, used as a device with these traits in place of its own.
+    pub fn used_as(traits: Option<Traits>) -> Self {
         let instance = Instance::new(true, None).expect("a Vulkan loader and the validation layer");
         assert!(instance.watches_synchronization(), "this validation layer sees no missing barrier");
-        let traits = as_gpu().then_some(Traits::GPU);
         let device = Device::open_as(&instance, None, None, traits).expect("a Vulkan 1.3 device");
         Self { device: Some(device), instance, expected: Vec::new(), fault: "" }
     }
