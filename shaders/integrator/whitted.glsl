@@ -8,19 +8,14 @@
 #include "light/light.glsl"
 #include "material/material.glsl"
 
+// Whether light from this direction arrives at the outside of the surface. cosine is that of the angle to its normal.
+bool lights_up(SurfacePoint at, vec3 direction, out float cosine) {
+    cosine = dot(at.shading_normal, direction);
+    return cosine > 0.0 && dot(at.normal, direction) > 0.0;
+}
+
 // The radiance of one light that the surface reflects towards the viewer.
-vec3 reflected_light(Material material, vec3 color, Light light, bool casts_shadows, SurfacePoint at, vec3 to_viewer, inout uint rays, inout bool given_up) {
-    LightSample arriving = light_sample(light, at.position);
-    float cosine = dot(at.shading_normal, arriving.direction);
-    if (cosine <= 0.0 || dot(at.normal, arriving.direction) <= 0.0) {
-        return vec3(0.0);
-    }
-    if (casts_shadows) {
-        ++rays;
-        if (occluded(Ray(at.offset_position, arriving.direction), arriving.distance, given_up)) {
-            return vec3(0.0);
-        }
-    }
+vec3 reflected_light(Material material, vec3 color, SurfacePoint at, LightSample arriving, float cosine, vec3 to_viewer) {
     return material_f(material, color, at, arriving.direction, to_viewer) * arriving.radiance * cosine;
 }
 
@@ -33,14 +28,25 @@ vec3 shade(Material material, vec3 color, SurfacePoint at, vec3 to_viewer, inout
     // This loop tests its condition at the end. If it did so at the start, Mesa's software device would run it once
     // more than needed, because that device checks only at the end whether any invocation goes on.
     uint lights = shadow_light_count();
+    float cosine;
     if (lights > 0u) {
         uint i = 0u;
         do {
-            sum += reflected_light(material, color, get_light(i), true, at, to_viewer, rays, given_up);
+            LightSample arriving = light_sample(get_light(i), at.position);
+            if (lights_up(at, arriving.direction, cosine)) {
+                ++rays;
+                if (!occluded(Ray(at.offset_position, arriving.direction), arriving.distance, given_up)) {
+                    sum += reflected_light(material, color, at, arriving, cosine, to_viewer);
+                }
+            }
         } while (++i < lights);
     }
+    // The loops are two, so that drivers do not have to compile a search for shadows that nothing casts.
     for (uint i = lights, end = light_count(); i < end; ++i) {
-        sum += reflected_light(material, color, get_light(i), false, at, to_viewer, rays, given_up);
+        LightSample arriving = light_sample(get_light(i), at.position);
+        if (lights_up(at, arriving.direction, cosine)) {
+            sum += reflected_light(material, color, at, arriving, cosine, to_viewer);
+        }
     }
     return sum;
 }
