@@ -75,7 +75,7 @@ impl Swapchain {
             .image_sharing_mode(vk::SharingMode::EXCLUSIVE)
             .pre_transform(capabilities.current_transform)
             .composite_alpha(composite_alpha(&capabilities))
-            .present_mode(vk::PresentModeKHR::FIFO)
+            .present_mode(surface.present_mode(device.physical)?)
             .clipped(true);
         let loader = khr::swapchain::Device::new(&device.instance.raw, &device.raw);
         // SAFETY: info follows the surface's capabilities, and `swapchain` below owns the handle.
