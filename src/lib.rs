@@ -49,7 +49,8 @@
 //! - **select** lists the pixels of an adaptive picture that need more samples: those whose error is still too large,
 //!   and those that may have missed something bright.
 //! - **resolve** turns the film into a picture: exposure, sRGB, and the overlays.
-//! - **pick** finds what lies under one place of the picture, and **geometry** the depth of every pixel.
+//! - **pick** finds what lies under one place of the picture, and **geometry** what the middle of each
+//!   pixel sees.
 //!
 //! # The modules
 //!
