@@ -100,7 +100,7 @@ impl Viewer {
     }
 
     /// Out of the way of tooltips and highlights.
-    fn point_away(&self) {
+    pub fn point_away(&self) {
         self.point(self.size.map(|extent| i32::from(extent) - 5));
     }
 
