@@ -222,8 +222,8 @@ fn shape_ranges() -> String {
     let bits = |count: usize| (1_u32 << count) - 1;
     writeln!(
         glsl,
-        "const uint BOUNDED_KINDS = {}u;\nconst uint ALL_KINDS = {}u;\nconst uint SHAPE_KIND_COUNT = {}u;\nconst uint BOUNDED_SHAPES_END = {};\n\
-         const uint SHAPES_END = {};",
+        "const uint BOUNDED_KINDS = {}u;\nconst uint ALL_KINDS = {}u;\nconst uint SHAPE_KIND_COUNT = {}u;\n\
+         const uint BOUNDED_SHAPES_END = {};\nconst uint SHAPES_END = {};",
         bits(bounded.len()),
         bits(NAMES.len()),
         NAMES.len(),

@@ -48,7 +48,7 @@ impl Loader {
     /// Starts the thread. New parts share what they can with `prepared`. `waker` is notified whenever something is
     /// ready.
     pub(super) fn new(preparer: Arc<Preparer>, prepared: Prepared, waker: EventLoopProxy<()>) -> Self {
-        let (requests, todo) = channel();
+        let (requests, incoming) = channel();
         let (done, answers) = channel();
         let newest = Arc::new(AtomicU64::new(0));
         let answer = move |answer| {
@@ -57,7 +57,7 @@ impl Loader {
             let _ = waker.send_event(());
         };
         let mut worker = Worker { preparer, last: prepared, newest: Arc::clone(&newest), answer };
-        let thread = std::thread::spawn(move || while worker.work(&todo) {});
+        let thread = std::thread::spawn(move || while worker.work(&incoming) {});
         Self {
             requests: Some(requests),
             answers,
@@ -140,12 +140,12 @@ struct Worker<F> {
 
 impl<F: Fn(Answer)> Worker<F> {
     /// Waits for requests, and handles the newest of each kind. Returns false when there will be no more.
-    fn work(&mut self, todo: &Receiver<Request>) -> bool {
-        let Ok(first) = todo.recv() else {
+    fn work(&mut self, incoming: &Receiver<Request>) -> bool {
+        let Ok(first) = incoming.recv() else {
             return false;
         };
         let (mut open, mut prepare) = (None, None);
-        for request in std::iter::once(first).chain(todo.try_iter()) {
+        for request in std::iter::once(first).chain(incoming.try_iter()) {
             match request {
                 Request::Open { .. } => open = Some(request),
                 Request::Prepare(settings) => prepare = Some(settings),
