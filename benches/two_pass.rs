@@ -8,7 +8,7 @@ use std::sync::Arc;
 use thinlens::error::Result;
 use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush, lens_constants};
 use thinlens::interface::binding;
-use thinlens::passes::{Accumulate, Adaptive, ApertureBuffers, BlueNoiseTile, SceneBuffers, Trace};
+use thinlens::passes::{Accumulate, AdaptiveBuffers, ApertureBuffers, BlueNoiseTile, SceneBuffers, Trace};
 use thinlens::renderer::schedule::Batch;
 use thinlens::scene::{self, SceneRef};
 use thinlens::settings::Settings;
@@ -53,7 +53,7 @@ fn measure(device: &Arc<Device>, name: &str) -> Result<()> {
         Accumulate::new(device, Accumulate::SHADER, &constants, &tile)?,
     );
     let aperture = ApertureBuffers::new(device, &[])?;
-    let adaptive = Adaptive::new(device, None)?;
+    let adaptive = AdaptiveBuffers::new(device, None)?;
     let traced = trace.bind(&scene, &aperture, &batch, &counters, &adaptive, 0)?;
     let accumulated = accumulate.bind(&batch, &film, &adaptive, 0)?;
     let spirv = thinlens_test_shaders::spirv("fused", "").expect("a shader that there is");

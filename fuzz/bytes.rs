@@ -3,7 +3,7 @@
 use fastrand::Rng;
 
 /// Inputs are no longer than this.
-pub const MOST: usize = 60_000;
+pub const MAX_INPUT_BYTES: usize = 60_000;
 
 /// Flips, sets, drops, repeats and moves bytes, cuts the end off, or goes on as another input does.
 pub fn change(random: &mut Rng, bytes: &mut Vec<u8>, other: &[u8]) {
@@ -33,7 +33,7 @@ pub fn change(random: &mut Rng, bytes: &mut Vec<u8>, other: &[u8]) {
         7 => number(random, bytes, place),
         _ => bytes.insert(place, random.u8(..)),
     }
-    bytes.truncate(MOST);
+    bytes.truncate(MAX_INPUT_BYTES);
 }
 
 /// Writes an extreme number over what is there, of two, four or eight bytes and either order.
@@ -84,7 +84,7 @@ pub fn change_parts(random: &mut Rng, parts: &mut Vec<Part>, others: &[Part]) {
         1 => {
             let part = parts[place].clone();
             let copies = if random.u8(..20) == 0 { 200 } else { random.usize(1..3) };
-            let copies = copies.min(MOST / (part.data.len() + 12));
+            let copies = copies.min(MAX_INPUT_BYTES / (part.data.len() + 12));
             drop(parts.splice(place..place, vec![part; copies]));
         }
         2 => parts.swap(place, second),

@@ -53,7 +53,7 @@ pub fn mutate(random: &mut Rng, one: &[u8], other: &[u8]) -> Vec<u8> {
     if random.u8(..6) == 0 {
         bytes::change(random, &mut bytes, other);
     }
-    bytes.truncate(bytes::MOST);
+    bytes.truncate(bytes::MAX_INPUT_BYTES);
     bytes
 }
 

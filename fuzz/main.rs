@@ -28,15 +28,15 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 use targets::{TARGETS, Target};
 
-const MOST_MEMORY: usize = 1 << 30;
+const MAX_MEMORY: usize = 1 << 30;
 /// Inputs of each target that `cargo test` tries.
 const FEW: u64 = 3000;
 /// Inputs of each kind that others are made from, at most.
-const MOST_KEPT: usize = 2000;
+const MAX_KEPT: usize = 2000;
 const LONG: Duration = Duration::from_secs(1);
 
 #[global_allocator]
-static MEMORY: Cap<System> = Cap::new(System, MOST_MEMORY);
+static MEMORY: Cap<System> = Cap::new(System, MAX_MEMORY);
 
 /// What the last panic said, and where.
 static PANIC: Mutex<String> = Mutex::new(String::new());
@@ -45,14 +45,14 @@ fn main() -> ExitCode {
     let options = Options::of(std::env::args().skip(1));
     let folder = Folder::new();
     set_hook(Box::new(|panic| *PANIC.lock().expect("nobody panics with it") = panic.to_string()));
-    let mut faults = 0;
+    let mut failures = 0;
     for target in TARGETS.iter().filter(|target| options.wants(target.name)) {
-        faults += match &options.input {
+        failures += match &options.input {
             Some(input) => once(target, input),
             None => many(target, &options, &folder),
         };
     }
-    if faults == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    if failures == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
 /// What the command line asks for. Words that only Rust's own test runner knows are passed over.
@@ -127,7 +127,7 @@ fn many(target: &Target, options: &Options, folder: &Folder) -> usize {
     // Those that were right, and those that were wrong in a way of their own.
     let mut kept = [seeds.clone(), Vec::new()];
     let mut shapes = HashSet::new();
-    let mut faults: HashSet<String> = HashSet::new();
+    let mut failures: HashSet<String> = HashSet::new();
     let (mut accepted, mut slowest) = (0, Duration::ZERO);
     println!("{}: {} inputs, by way of {}", target.name, options.inputs, folder.0.path().display());
     let start = Instant::now();
@@ -161,7 +161,7 @@ fn many(target: &Target, options: &Options, folder: &Folder) -> usize {
         }
         let (wrong, shape) = match outcome {
             Err(panic) => {
-                if faults.insert(shape(&panic)) {
+                if failures.insert(shape(&panic)) {
                     let file = keep(target, &input, &number.to_string());
                     println!("{}: {panic}\n    with {}", target.name, file.display());
                 }
@@ -176,26 +176,26 @@ fn many(target: &Target, options: &Options, folder: &Folder) -> usize {
                 println!("{}: {shape}", ["right", "wrong"][wrong]);
             }
             let kept = &mut kept[wrong];
-            if kept.len() < MOST_KEPT {
+            if kept.len() < MAX_KEPT {
                 kept.push(input);
             } else {
-                let place = random.usize(..MOST_KEPT);
+                let place = random.usize(..MAX_KEPT);
                 kept[place] = input;
             }
         }
     }
     println!(
         "{}: {} inputs in {:.1?}, {accepted} accepted, {} kinds of outcome, slowest {slowest:.1?}, at most {} MiB, \
-         {} faults",
+         {} failures",
         target.name,
         options.inputs,
         start.elapsed(),
         shapes.len(),
         MEMORY.max_allocated() >> 20,
-        faults.len()
+        failures.len()
     );
     assert!(accepted > 0 || options.inputs < FEW, "no input is right, so that little is tried");
-    faults.len()
+    failures.len()
 }
 
 /// Keeps an input for people, in the folder `fuzz` of the folder that the tests were built in.

@@ -113,7 +113,7 @@ pub fn mutate(random: &mut Rng, one: &[u8], other: &[u8]) -> Vec<u8> {
         }
     }
     let mut bytes = join(&parts);
-    bytes.truncate(bytes::MOST);
+    bytes.truncate(bytes::MAX_INPUT_BYTES);
     bytes
 }
 

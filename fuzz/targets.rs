@@ -169,11 +169,11 @@ fn aperture(input: &[u8]) -> Outcome {
     assert!(width.max(height) <= 256 && image.cells.len() == width * height, "{image:?}");
     assert!(image.cells.iter().all(|cell| (0.0..=1.0).contains(cell)), "light of {image:?}");
     let aperture = scene::Aperture { image: Some(image), ..Default::default() };
-    let share = aperture.open_share();
-    assert!(share > 0.0 && share < 1.3, "a share of {share} is open");
+    let area = aperture.relative_area();
+    assert!(area > 0.0 && area < 1.3, "{area} of the area of a disc");
     // The header's depth, colour type and interlacing tell images apart.
     let (size, kind) = ([width, height].map(usize::ilog2), input.get(24..29));
-    Ok(format!("{size:?} {kind:?} {:.1}", share))
+    Ok(format!("{size:?} {kind:?} {area:.1}"))
 }
 
 /// A picture that says how it was made.

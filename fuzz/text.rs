@@ -1,6 +1,6 @@
 //! Changes of texts, by words and lines.
 
-use super::bytes::{self, MOST};
+use super::bytes::{self, MAX_INPUT_BYTES};
 use fastrand::Rng;
 
 /// Numbers that are hard to hold, and some that are no numbers.
@@ -76,7 +76,7 @@ pub fn mutate(random: &mut Rng, one: &[u8], other: &[u8], known: &[&str]) -> Vec
                 text
             }
         };
-        text.truncate(MOST);
+        text.truncate(MAX_INPUT_BYTES);
     }
     text
 }
@@ -136,7 +136,7 @@ fn again(random: &mut Rng, text: &[u8]) -> Vec<u8> {
         true => words.iter().take(random.usize(1..=4)).copied().collect::<Vec<_>>().concat(),
         false => text[place..].split_inclusive(|byte| *byte == b'\n').take(2).collect::<Vec<_>>().concat(),
     };
-    let most = if random.u8(..40) == 0 { MOST } else { 400 };
+    let most = if random.u8(..40) == 0 { MAX_INPUT_BYTES } else { 400 };
     let times = random.usize(1..=(most / part.len().max(1)).max(1));
     [&text[..place], &part.repeat(times), &text[place..]].concat()
 }

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::sync::Once;
 
 /// The largest file that is read whole, in bytes.
-pub(crate) const MOST_BYTES: u64 = u32::MAX as u64;
+pub(crate) const MAX_BYTES: u64 = u32::MAX as u64;
 
 /// Opens a plain file. Pipes and devices are refused: scenes and pictures name files, and one that never answers
 /// or never ends would hold the program up for good.

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 /// Links that lead to links are followed so far.
-const MOST_LINKS: usize = 40;
+const MAX_LINKS: usize = 40;
 
 /// A file that is written beside its place and renamed, so that nobody sees half of it. Made before
 /// the work, so that a wrong path is known before it.
@@ -136,7 +136,7 @@ fn destination(path: &Path) -> Result<Destination> {
     let failed = |error: std::io::Error| cannot_write(path, &error);
     let refused = |reason: &str| Err(Error::Write { path: path.into(), reason: reason.into() });
     let mut at = path.to_path_buf();
-    for _ in 0..MOST_LINKS {
+    for _ in 0..MAX_LINKS {
         if at.file_name().is_none() && !at.is_dir() {
             return refused("it has no file name; name a file");
         }

@@ -9,7 +9,7 @@ use common::{Gpu, bits, film, probe, prove, render, scene_of, settings_of, small
 use glam::DVec3;
 use std::sync::Arc;
 use thinlens::gpu_types::{Camera, Counters, SceneData, TracePush, lens_constants};
-use thinlens::passes::{Adaptive, ApertureBuffers, BlueNoiseTile, SceneBuffers, Trace};
+use thinlens::passes::{AdaptiveBuffers, ApertureBuffers, BlueNoiseTile, SceneBuffers, Trace};
 use thinlens::reference::{self, sampler};
 use thinlens::renderer::schedule::Batch;
 use thinlens::settings::Settings;
@@ -41,7 +41,7 @@ fn record(gpu: &Gpu, settings: &Settings) -> Result<Vec<Vec<[f32; 4]>>> {
     let counters = Buffer::new(device, "counters", size_of::<Counters>() as u64, Residence::Device)?;
     let batch = Arc::new(Image::rgba32f(device, "batch", estimator.size)?);
     let read = Buffer::new(device, "samples", batch.byte_len(), Residence::Host)?;
-    let adaptive = Adaptive::new(device, None)?;
+    let adaptive = AdaptiveBuffers::new(device, None)?;
     let aperture = ApertureBuffers::new(device, &[])?;
     let bindings = trace.bind(&scene, &aperture, &batch, &Arc::new(counters), &adaptive, 0)?;
     let mut commands = Commands::new(device)?;

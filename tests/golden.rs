@@ -12,7 +12,7 @@ use std::sync::Arc;
 use thinlens::gpu_types::{OverlayScale, ResolvePush};
 use thinlens::interface::binding;
 use thinlens::output::write_png;
-use thinlens::passes::{Adaptive, Resolve, ResolveKind};
+use thinlens::passes::{AdaptiveBuffers, Resolve, ResolveKind};
 use thinlens::pending_file::PendingFile;
 use thinlens::vulkan::{Binding, BindingSet, Buffer, Commands, ComputePipeline, Image, Residence};
 
@@ -39,7 +39,7 @@ fn resolve(gpu: &Gpu, case: &Case) -> Result<Vec<u8>> {
     let film = Arc::new(Image::rgba32f(device, "film", case.extent)?);
     let picture = Arc::new(Image::rgba8(device, "picture", case.extent)?);
     let surfaces = Arc::new(Image::rgba32f(device, "surfaces", [1, 1])?);
-    let adaptive = Adaptive::new(device, None)?;
+    let adaptive = AdaptiveBuffers::new(device, None)?;
     let mut commands = Commands::new(device)?;
     let mut recording = commands.begin()?;
     recording.clear(&surfaces);

@@ -73,9 +73,9 @@ fn blurring_leaves_less_of_blue_noise() {
                 }
                 Ok(powers)
             };
-            for (samples, most, most_of_others) in [(1, first, first_of_others), (4, fourth, fourth)] {
+            for (samples, most, max_of_others) in [(1, first, first_of_others), (4, fourth, fourth)] {
                 let sobol = powers(Sampler::Sobol, samples, 0..3)?;
-                for (seeds, most) in [(0..1, most), (1..4, most_of_others)] {
+                for (seeds, most) in [(0..1, most), (1..4, max_of_others)] {
                     let blue = powers(Sampler::BlueNoise, samples, seeds.clone())?;
                     let [error, blurred] = [0, 1].map(|kind| (blue[kind] / sobol[kind]).sqrt());
                     figures.push(format!(

@@ -5,7 +5,7 @@ mod common;
 use common::{Gpu, run, small};
 use std::sync::Arc;
 use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush, lens_constants};
-use thinlens::passes::{Accumulate, Adaptive, ApertureBuffers, BlueNoiseTile, SceneBuffers, Trace};
+use thinlens::passes::{Accumulate, AdaptiveBuffers, ApertureBuffers, BlueNoiseTile, SceneBuffers, Trace};
 use thinlens::renderer::Renderer;
 use thinlens::renderer::schedule::Batch;
 use thinlens::vulkan::{Buffer, Commands, Image, Instance, Residence};
@@ -41,7 +41,7 @@ fn record_two_passes(gpu: &Gpu, barrier: bool) {
         Accumulate::new(device, Accumulate::SHADER, &constants, &tile).expect("accumulate"),
     );
     let aperture = ApertureBuffers::new(device, &[]).expect("an aperture");
-    let adaptive = Adaptive::new(device, None).expect("images");
+    let adaptive = AdaptiveBuffers::new(device, None).expect("images");
     let traced = trace.bind(&scene, &aperture, &batch, &counters, &adaptive, 0).expect("bindings");
     let accumulated = accumulate.bind(&batch, &film, &adaptive, 0).expect("bindings");
 

@@ -14,7 +14,7 @@ const VIEW_PLANE_SHARE: f64 = 0.25;
 /// The drawing extends beyond what is seen and beyond the focal plane by this factor.
 const BEYOND: f64 = 1.2;
 /// If one of them is more than this many times as far as the other, the drawing ends before it.
-const MOST_APART: f64 = 4.0;
+const MAX_DEPTH_RATIO: f64 = 4.0;
 
 /// A line of the drawing.
 pub type Line = [DVec3; 2];
@@ -90,7 +90,7 @@ impl Diagram {
             .fold((f64::INFINITY, 0.0_f64), |(near, far), depth| (near.min(depth), far.max(depth)));
         // If nothing is hit and there is no lens, any scale will do.
         let reach =
-            if near.is_finite() { BEYOND * far.min(MOST_APART * near) } else { camera.film_distance() };
+            if near.is_finite() { BEYOND * far.min(MAX_DEPTH_RATIO * near) } else { camera.film_distance() };
         let view_plane = VIEW_PLANE_SHARE * if near.is_finite() { near } else { reach };
 
         let line = |ray: &LensRay| -> Line {

@@ -19,7 +19,7 @@ pub(super) struct Loader {
     answers: Receiver<Answer>,
     thread: Option<JoinHandle<()>>,
     /// The file or scene that is being opened.
-    opening: Option<PathBuf>,
+    loading: Option<PathBuf>,
     /// What is being prepared.
     preparing: Option<Keys>,
     /// The number of the newest request to open something.
@@ -62,7 +62,7 @@ impl Loader {
             requests: Some(requests),
             answers,
             thread: Some(thread),
-            opening: None,
+            loading: None,
             preparing: None,
             newest,
         }
@@ -71,7 +71,7 @@ impl Loader {
     /// Opens a scene, a mesh or a picture, which replaces what is shown now.
     pub(super) fn open(&mut self, name: &Path, now: &Settings) {
         let number = self.newest.fetch_add(1, Ordering::Relaxed) + 1;
-        self.opening = Some(name.to_path_buf());
+        self.loading = Some(name.to_path_buf());
         self.ask(Request::Open { number, name: name.to_path_buf(), now: Box::new(now.clone()) });
     }
 
@@ -90,13 +90,13 @@ impl Loader {
     }
 
     /// The name of what is being opened.
-    pub(super) fn opening(&self) -> Option<&Path> {
-        self.opening.as_deref()
+    pub(super) fn loading(&self) -> Option<&Path> {
+        self.loading.as_deref()
     }
 
     /// Whether anything is being opened or prepared.
     pub(super) fn is_busy(&self) -> bool {
-        self.opening.is_some() || self.preparing.is_some()
+        self.loading.is_some() || self.preparing.is_some()
     }
 
     /// The next thing that is ready and still wanted.
@@ -105,7 +105,7 @@ impl Loader {
             match answer {
                 Answer::Opened { number, name, opened } => {
                     if number == self.newest.load(Ordering::Relaxed) {
-                        self.opening = None;
+                        self.loading = None;
                         return Some(Ready::Opened { name, opened });
                     }
                 }

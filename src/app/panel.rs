@@ -11,7 +11,7 @@ use crate::settings::{Called, Settings};
 use std::path::{Path, PathBuf};
 
 /// The largest number of recent files.
-const MOST_RECENT: usize = 8;
+const MAX_RECENT: usize = 8;
 
 /// The panel's state.
 pub(super) struct Panel {
@@ -204,7 +204,7 @@ impl Panel {
         let file = absolute(file);
         self.recent.retain(|known| *known != file);
         self.recent.insert(0, file);
-        self.recent.truncate(MOST_RECENT);
+        self.recent.truncate(MAX_RECENT);
     }
 
     /// The name of the file to save the picture to.

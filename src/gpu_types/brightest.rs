@@ -23,13 +23,13 @@ pub struct Brightest {
 
 impl Brightest {
     /// The most cells that a grid has. One update of a buffer can write as many.
-    pub const MOST_CELLS: u32 = 16384;
+    pub const MAX_CELLS: u32 = 16384;
 
     /// The width and height of a cell in pixels, and the numbers of columns and rows. The cells are as small as
-    /// [`Self::MOST_CELLS`] allows.
+    /// [`Self::MAX_CELLS`] allows.
     pub fn grid(size: [u32; 2]) -> [u32; 3] {
         let cells = |edge: u32| size.map(|length| length.div_ceil(edge));
-        let fits = |[columns, rows]: [u32; 2]| columns.saturating_mul(rows) <= Self::MOST_CELLS;
+        let fits = |[columns, rows]: [u32; 2]| columns.saturating_mul(rows) <= Self::MAX_CELLS;
         let cell = (1..).find(|edge| fits(cells(*edge))).unwrap_or(u32::MAX);
         let [columns, rows] = cells(cell);
         [cell, columns, rows]

@@ -1,6 +1,6 @@
 //! Lights in the form that the shaders read. Each kind of light has a match arm.
 
-use super::float::floats;
+use super::denormal::flush_denormals;
 use crate::interface::light;
 use crate::scene::{self, LightKind, Scene};
 use bytemuck::{Pod, Zeroable};
@@ -38,9 +38,9 @@ impl Light {
             }
         };
         Self {
-            radiance: floats(of.radiance),
+            radiance: flush_denormals(of.radiance),
             kind,
-            position_or_direction: floats(position_or_direction),
+            position_or_direction: flush_denormals(position_or_direction),
             pad0: 0,
         }
     }
@@ -50,9 +50,9 @@ impl Environment {
     /// The sky and the ambient light of a scene whose bounded shapes lie within `bounding_radius` of the origin.
     pub fn new(scene: &Scene, bounding_radius: f32) -> Self {
         Self {
-            horizon: floats(scene.background.horizon),
-            zenith: floats(scene.background.zenith),
-            ambient: floats(scene.ambient),
+            horizon: flush_denormals(scene.background.horizon),
+            zenith: flush_denormals(scene.background.zenith),
+            ambient: flush_denormals(scene.ambient),
             bounding_radius,
             ..Zeroable::zeroed()
         }

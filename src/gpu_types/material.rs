@@ -1,6 +1,6 @@
 //! Materials and their textures in the form that the shaders read. Each kind has a match arm.
 
-use super::float::{float, floats};
+use super::denormal::{flush_denormal, flush_denormals};
 use crate::interface::{material, texture};
 use crate::scene::{self, Matte};
 use bytemuck::{Pod, Zeroable};
@@ -36,8 +36,8 @@ impl Material {
     pub fn new(of: &scene::Material, origin: DVec3) -> Self {
         let matte = |kind: u32, of: &Matte| Self {
             color: Texture::new(&of.color, origin),
-            ka: float(of.ka),
-            kd: float(of.kd),
+            ka: flush_denormal(of.ka),
+            kd: flush_denormal(of.kd),
             kind,
             ..Zeroable::zeroed()
         };
@@ -49,12 +49,12 @@ impl Material {
         match of {
             scene::Material::Matte(of) => matte(material::MATTE, of),
             scene::Material::Phong(of) => {
-                let highlight = (float(of.ks), float(of.exponent));
+                let highlight = (flush_denormal(of.ks), flush_denormal(of.exponent));
                 Self { ks: highlight.0, exponent: highlight.1, ..matte(material::PHONG, &of.matte()) }
             }
             scene::Material::Mirror(of) => Self {
-                ks: float(of.ks),
-                exponent: float(of.exponent),
+                ks: flush_denormal(of.ks),
+                exponent: flush_denormal(of.exponent),
                 ..constant(material::MIRROR, of.reflectance)
             },
             scene::Material::Emissive(of) => constant(material::EMISSIVE, of.radiance),
@@ -66,17 +66,17 @@ impl Texture {
     fn new(of: &scene::Texture, origin: DVec3) -> Self {
         match of {
             scene::Texture::Constant(of) => {
-                Self { color: floats(of.color), kind: texture::CONSTANT, ..Zeroable::zeroed() }
+                Self { color: flush_denormals(of.color), kind: texture::CONSTANT, ..Zeroable::zeroed() }
             }
             scene::Texture::Checker(of) => {
                 // The checker repeats after two cells along each axis.
                 let phase = origin.map(|coordinate| coordinate.rem_euclid(2.0 * of.size));
                 Self {
-                    color: floats(of.even),
+                    color: flush_denormals(of.even),
                     kind: texture::CHECKER,
-                    other_color: floats(of.odd),
+                    other_color: flush_denormals(of.odd),
                     inverse_size: of.size.recip() as f32,
-                    phase: floats(phase.as_vec3()),
+                    phase: flush_denormals(phase.as_vec3()),
                     pad0: 0,
                 }
             }

@@ -4,7 +4,7 @@
 
 mod aperture;
 mod brightest;
-mod float;
+mod denormal;
 mod light;
 mod material;
 mod scene;

@@ -1,6 +1,6 @@
 //! A scene as the shaders want it.
 
-use super::float::floats;
+use super::denormal::flush_denormals;
 use super::shape::on_device;
 use super::{Environment, Light, Material, ShapeRecord, TreeNode};
 use crate::interface::shape;
@@ -9,7 +9,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
 
 /// If there are more bounded shapes than this, they go into a tree. With fewer, testing each shape is faster.
-const MOST_LISTED_SHAPES: usize = 64;
+const MAX_LISTED_SHAPES: usize = 64;
 
 /// A scene's buffers.
 #[derive(Debug)]
@@ -70,7 +70,7 @@ impl SceneData {
     pub fn new(scene: &SceneRef, shutter: f32) -> Self {
         let smooth = scene.of_kind::<Triangle>().any(|(triangle, _)| triangle.normals.is_some());
         let bounded = scene.shapes.iter().filter(|of| of.shape.is_bounded()).count();
-        Self::with_tree(scene, shutter, smooth || bounded > MOST_LISTED_SHAPES)
+        Self::with_tree(scene, shutter, smooth || bounded > MAX_LISTED_SHAPES)
     }
 
     /// Does the same as [`SceneData::new`], but the caller decides whether the bounded shapes go into a tree.
@@ -118,7 +118,7 @@ impl SceneData {
             },
             shape_kinds: bits(shapes.iter().map(|shape| shape.kind)),
             normals: corner_normals(in_tree),
-            velocities: all().filter(|_| moves).map(|of| with_zero(floats(of.velocity))).collect(),
+            velocities: all().filter(|_| moves).map(|of| with_zero(flush_denormals(of.velocity))).collect(),
             tree_depth,
             reflects: scene.materials.iter().any(|of| of.reflectance() != Vec3::ZERO),
             moves,
@@ -143,7 +143,7 @@ fn corner_normals(shapes: &[Shaded]) -> Vec<[[f32; 4]; 3]> {
         return Vec::new();
     }
     let corners = shapes.iter().map(|of| normals(of).unwrap_or_default());
-    corners.map(|corners| corners.map(|normal| with_zero(floats(normal)))).collect()
+    corners.map(|corners| corners.map(|normal| with_zero(flush_denormals(normal)))).collect()
 }
 
 /// The distance from the origin within which all shapes stay while the shutter is open, which is `shutter` seconds.
@@ -167,7 +167,7 @@ fn tree_node(node: &Node) -> TreeNode {
     let [x, y, z] = node.exponents.map(|exponent| (exponent + 127) as u32);
     let [planes_x, planes_y, planes_z] = node.planes.map(|planes| planes.map(u32::from_le_bytes));
     TreeNode {
-        origin: floats(node.origin),
+        origin: flush_denormals(node.origin),
         about: x | y << 8 | z << 16 | node.children << 24,
         planes_x,
         planes_y,

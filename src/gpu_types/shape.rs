@@ -1,6 +1,6 @@
 //! Shapes in the form that the shaders read. Each kind of shape has a match arm.
 
-use super::float::{float, floats};
+use super::denormal::{flush_denormal, flush_denormals};
 use crate::interface::shape;
 use crate::scene::{Shaded, Shape};
 use bytemuck::{Pod, Zeroable};
@@ -56,11 +56,11 @@ impl ShapeRecord {
             }
             Shape::Plane(plane) => {
                 let normal = plane.normal.as_dvec3().normalize();
-                let offset = float(normal.dot(plane.point) as f32);
+                let offset = flush_denormal(normal.dot(plane.point) as f32);
                 (normal.as_vec3(), Vec3::X * offset, Vec3::ZERO)
             }
         };
-        let [position, a, b] = [position, a, b].map(floats);
+        let [position, a, b] = [position, a, b].map(flush_denormals);
         Self { position, material: of.material, a, kind: Self::kind(&of.shape), b, index }
     }
 }

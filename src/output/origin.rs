@@ -13,7 +13,7 @@ use std::path::Path;
 /// The keyword of the text in a PNG, and the name of the attribute in an EXR.
 const KEY: &str = "thinlens";
 /// The most bytes that the text has once it is unpacked.
-const MOST_TEXT: usize = 1 << 20;
+const MAX_TEXT: usize = 1 << 20;
 
 /// What a picture file says of how it was made, as JSON.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -106,12 +106,12 @@ fn text_among(info: &png::Info<'_>) -> Option<String> {
     let plain = info.uncompressed_latin1_text.iter().find(|text| text.keyword == KEY);
     let packed = || {
         let mut text = info.compressed_latin1_text.iter().find(|text| text.keyword == KEY)?.clone();
-        text.decompress_text_with_limit(MOST_TEXT).ok()?;
+        text.decompress_text_with_limit(MAX_TEXT).ok()?;
         text.get_text().ok()
     };
     let international = || {
         let mut text = info.utf8_text.iter().find(|text| text.keyword == KEY)?.clone();
-        text.decompress_text_with_limit(MOST_TEXT).ok()?;
+        text.decompress_text_with_limit(MAX_TEXT).ok()?;
         text.get_text().ok()
     };
     plain.map(|text| text.text.clone()).or_else(packed).or_else(international)

@@ -1,6 +1,6 @@
 //! Merges the tracing image into the film.
 
-use super::{Adaptive, BlueNoiseTile};
+use super::{AdaptiveBuffers, BlueNoiseTile};
 use crate::error::Result;
 use crate::gpu_types::AccumulatePush;
 use crate::vulkan::{BindingSet, ComputePipeline, Device, Image, Recording, Shader, shader};
@@ -33,7 +33,7 @@ impl Accumulate {
         &self,
         traced: &Arc<Image>,
         film: &Arc<Image>,
-        adaptive: &Adaptive,
+        adaptive: &AdaptiveBuffers,
         list: usize,
     ) -> Result<BindingSet> {
         let moments = [adaptive.bind_traced_moments(), adaptive.bind_film_moments()];

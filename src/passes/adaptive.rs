@@ -8,7 +8,7 @@ use crate::vulkan::{Binding, Buffer, Device, Image, Recording, Residence};
 use std::sync::Arc;
 
 /// The second moments of the pixels, and the lists of active pixels. Without moments, all have the size of one pixel.
-pub struct Adaptive {
+pub struct AdaptiveBuffers {
     /// The second moments of the tracing image, then those of the accumulation image.
     moments: [Arc<Image>; 2],
     /// Two lists of active pixels: a selection reads one and writes the other. A list is the number of its pixels, then
@@ -18,7 +18,7 @@ pub struct Adaptive {
     brightest: Arc<Buffer>,
 }
 
-impl Adaptive {
+impl AdaptiveBuffers {
     /// The number of bytes in a list before its first pixel.
     pub const LIST_HEADER: u64 = size_of::<u32>() as u64;
 

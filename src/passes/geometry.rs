@@ -11,7 +11,7 @@ use std::sync::Arc;
 pub struct Geometry(ComputePipeline);
 
 /// The most pixels of a dispatch. A picture with more takes several, each for some of its rows.
-const MOST_PIXELS: u32 = 1 << 21;
+const MAX_PIXELS: u32 = 1 << 21;
 
 impl Geometry {
     /// The shader.
@@ -38,7 +38,7 @@ impl Geometry {
         extent: [u32; 2],
     ) {
         let [width, height] = extent;
-        let rows = (MOST_PIXELS / width).max(1).next_multiple_of(GROUP_SIZE);
+        let rows = (MAX_PIXELS / width).max(1).next_multiple_of(GROUP_SIZE);
         let mut top = 0;
         while top < height {
             let push = GeometryPush { camera, extent, top };

@@ -15,7 +15,7 @@ mod select;
 mod trace;
 
 pub use accumulate::Accumulate;
-pub use adaptive::Adaptive;
+pub use adaptive::AdaptiveBuffers;
 pub use aperture::ApertureBuffers;
 pub use blue_noise::BlueNoiseTile;
 pub use geometry::Geometry;

@@ -26,9 +26,9 @@ impl Pick {
     /// The shader.
     pub const SHADER: Shader = shader!("pick");
     /// The most rays of a fan.
-    pub const MOST_FAN: u32 = 65;
+    pub const MAX_FAN: u32 = 65;
     /// The most samples that the pass follows.
-    pub const MOST_SAMPLES: u32 = 256;
+    pub const MAX_SAMPLES: u32 = 256;
 
     /// Compiles the pass from its shader, or from one with the same interface, for the constants of an
     /// estimator and a scene.
@@ -46,8 +46,8 @@ impl Pick {
 
     /// The pass traces `scene` through `aperture` and writes to a buffer that the host reads.
     pub fn bind(&self, scene: &SceneBuffers, aperture: &ApertureBuffers) -> Result<PickBindings> {
-        let most_rays = 1 + 2 * Self::MOST_FAN + Self::MOST_SAMPLES;
-        let size = u64::from(most_rays) * size_of::<PickedRay>() as u64;
+        let max_rays = 1 + 2 * Self::MAX_FAN + Self::MAX_SAMPLES;
+        let size = u64::from(max_rays) * size_of::<PickedRay>() as u64;
         let rays = Arc::new(Buffer::new(&self.device, "picked rays", size, Residence::Host)?);
         let mut bindings = scene.bindings();
         bindings.push((binding::PICKED_RAYS, Binding::Buffer(Arc::clone(&rays))));

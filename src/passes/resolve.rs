@@ -1,6 +1,6 @@
 //! Turns the film's means into a picture.
 
-use super::Adaptive;
+use super::AdaptiveBuffers;
 use crate::error::Result;
 use crate::gpu_types::ResolvePush;
 use crate::interface::{binding, constant};
@@ -46,7 +46,7 @@ impl Resolve {
         film: &Arc<Image>,
         picture: &Arc<Image>,
         surfaces: &Arc<Image>,
-        adaptive: &Adaptive,
+        adaptive: &AdaptiveBuffers,
     ) -> Result<BindingSet> {
         let image = |image: &Arc<Image>| Binding::Image(Arc::clone(image));
         let bindings = [

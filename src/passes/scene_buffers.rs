@@ -9,10 +9,10 @@ use std::sync::Arc;
 
 /// With more listed shapes, materials or lights than this, invocations do not copy the scene to variables: the unrolled
 /// code would grow too long.
-const MOST_KEPT: usize = 64;
+const MAX_KEPT: usize = 64;
 
 /// As many records as the bits for a record's index can tell apart in the stack of bvh.glsl.
-const MOST_RECORDS: usize = 1 << STACK_INDEX_BITS;
+const MAX_RECORDS: usize = 1 << STACK_INDEX_BITS;
 
 /// Where the scene is not copied, stacks have multiples of so many entries, so that few pipelines serve all trees.
 const STACK_STEP: u32 = 4;
@@ -38,12 +38,12 @@ impl SceneBuffers {
     /// [`Error::Limit`] where the scene has more shapes than a tree can hold.
     pub fn new(device: &Arc<Device>, scene: &SceneData) -> Result<Self> {
         let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
-        if scene.records.len() > MOST_RECORDS {
+        if scene.records.len() > MAX_RECORDS {
             return Err(Error::Limit {
                 what: "the list of shapes and the nodes of their tree",
                 unit: "records",
                 wanted: scene.records.len() as u64,
-                most: MOST_RECORDS as u64,
+                most: MAX_RECORDS as u64,
                 limit: "of thinlens itself".into(),
                 advice: "use fewer shapes",
             });
@@ -52,7 +52,7 @@ impl SceneBuffers {
         let most_tree_steps = scene.counts.most_tree_steps.min(traits.max_tree_steps.unwrap_or(u32::MAX));
         let counts = SceneCounts { most_tree_steps, ..scene.counts };
         let listed = scene.records.len() - counts.list_begin as usize;
-        let few = listed.max(scene.materials.len()).max(scene.lights.len()) <= MOST_KEPT;
+        let few = listed.max(scene.materials.len()).max(scene.lights.len()) <= MAX_KEPT;
         let kept = traits.keeps_scene && few;
         let bindings = vec![
             (binding::MATERIALS, buffer(device, "materials", &scene.materials)?),
@@ -99,22 +99,22 @@ impl SceneBuffers {
     }
 
     /// The most rays that one sample can need: for each surface, one that reaches it and one from there to each light.
-    pub fn most_rays(&self, max_bounces: u32) -> u32 {
-        self.most_surfaces(max_bounces).saturating_mul(1 + self.counts.lights)
+    pub fn max_rays(&self, max_bounces: u32) -> u32 {
+        self.max_surfaces(max_bounces).saturating_mul(1 + self.counts.lights)
     }
 
     /// The most iterations that the loops of the trace pass can make for one sample: over shapes for each ray,
     /// over lights and reflections, and in the sampler.
-    pub fn most_loop_steps(&self, max_bounces: u32) -> u64 {
+    pub fn max_loop_steps(&self, max_bounces: u32) -> u64 {
         let too_deep = u64::from(self.tree_depth.saturating_sub(SPELLED_OUT_STACK));
         let tree = u64::from(self.counts.most_tree_steps) * (1 + too_deep);
         let shapes = u64::from(self.listed_shapes()) + tree;
         let lights = u64::from(self.counts.lights);
-        SAMPLER_LOOP_STEPS + u64::from(self.most_surfaces(max_bounces)) * (1 + shapes + lights * (1 + shapes))
+        SAMPLER_LOOP_STEPS + u64::from(self.max_surfaces(max_bounces)) * (1 + shapes + lights * (1 + shapes))
     }
 
-    /// Explains [`SceneBuffers::most_loop_steps`] in words, for an error message.
-    pub fn most_steps_in_words(&self, max_bounces: u32) -> String {
+    /// Explains [`SceneBuffers::max_loop_steps`] in words, for an error message.
+    pub fn explain_max_loop_steps(&self, max_bounces: u32) -> String {
         // The range of the unbounded kinds is the last.
         let bounded = self.counts.list_ends[shape::FIRST_UNBOUNDED as usize - 1];
         let planes = self.listed_shapes() - bounded;
@@ -122,7 +122,7 @@ impl SceneBuffers {
             0 => format!("up to {} steps in the tree of shapes", self.counts.most_tree_steps),
             listed => format!("{listed} shapes"),
         };
-        let reflections = self.most_surfaces(max_bounces) - 1;
+        let reflections = self.max_surfaces(max_bounces) - 1;
         let lights = self.counts.lights;
         format!(
             "{reflections} reflections (--max-bounces), {lights} lights at each surface, and for every ray {planes} \
@@ -135,7 +135,7 @@ impl SceneBuffers {
         self.counts.list_ends[shape::NAMES.len() - 1]
     }
 
-    fn most_surfaces(&self, max_bounces: u32) -> u32 {
+    fn max_surfaces(&self, max_bounces: u32) -> u32 {
         if self.reflects { 1 + max_bounces } else { 1 }
     }
 

@@ -1,6 +1,6 @@
 //! Lists the pixels of an adaptive picture that are still to be traced.
 
-use super::Adaptive;
+use super::AdaptiveBuffers;
 use crate::error::Result;
 use crate::gpu_types::SelectPush;
 use crate::vulkan::{BindingSet, ComputePipeline, Device, Image, Recording, Shader, shader};
@@ -24,7 +24,7 @@ impl Select {
         &self,
         traced: &Arc<Image>,
         film: &Arc<Image>,
-        adaptive: &Adaptive,
+        adaptive: &AdaptiveBuffers,
         list: usize,
     ) -> Result<BindingSet> {
         let others = [adaptive.bind_kept(1 - list), adaptive.bind_film_moments(), adaptive.bind_brightest()];

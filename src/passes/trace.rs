@@ -1,6 +1,6 @@
 //! Traces a batch of samples for each pixel of a lattice into the tracing image.
 
-use super::{Adaptive, ApertureBuffers, BlueNoiseTile, SceneBuffers};
+use super::{AdaptiveBuffers, ApertureBuffers, BlueNoiseTile, SceneBuffers};
 use crate::error::Result;
 use crate::gpu_types::TracePush;
 use crate::interface::binding;
@@ -39,7 +39,7 @@ impl Trace {
         aperture: &ApertureBuffers,
         traced: &Arc<Image>,
         counters: &Arc<Buffer>,
-        adaptive: &Adaptive,
+        adaptive: &AdaptiveBuffers,
         list: usize,
     ) -> Result<BindingSet> {
         let mut bindings = scene.bindings();

@@ -16,11 +16,11 @@ pub(super) struct Projection {
     size: [f64; 2],
     /// Half the film's height at distance one.
     half_height: f64,
-    opening: Opening,
+    optics: Optics,
 }
 
-/// The opening through which light comes in.
-enum Opening {
+/// What light passes on its way to the film.
+enum Optics {
     Lens {
         radius: f64,
         focal_distance: f64,
@@ -45,13 +45,13 @@ impl Projection {
             w,
             size: estimator.size.map(f64::from),
             half_height: (camera.vfov_radians / 2.0).tan(),
-            opening: match estimator.model {
-                CameraModel::ThinLens => Opening::Lens {
+            optics: match estimator.model {
+                CameraModel::ThinLens => Optics::Lens {
                     radius: f64::from(estimator.lens.diameter) / 2.0,
                     focal_distance: f64::from(estimator.lens.focal_distance),
                 },
-                CameraModel::Pinhole => Opening::Lens { radius: 0.0, focal_distance: 1.0 },
-                CameraModel::Hole => Opening::Hole {
+                CameraModel::Pinhole => Optics::Lens { radius: 0.0, focal_distance: 1.0 },
+                CameraModel::Hole => Optics::Hole {
                     radius: f64::from(estimator.hole.diameter) / 2.0,
                     film_distance: 0.012 / (camera.vfov_radians / 2.0).tan() / camera.metres_per_unit,
                     upright: estimator.hole.upright,
@@ -79,13 +79,13 @@ impl Projection {
         let pixel_size = 2.0 * self.half_height / height;
         let across = (x - width / 2.0) * pixel_size * self.u - (y - height / 2.0) * pixel_size * self.v;
         let on_disk = disk[0] * self.u + disk[1] * self.v;
-        match self.opening {
-            Opening::Lens { radius, focal_distance } => {
+        match self.optics {
+            Optics::Lens { radius, focal_distance } => {
                 let focus = self.eye + focal_distance * (across - self.w);
                 let origin = self.eye + radius * on_disk;
                 Ray { origin, direction: (focus - origin).normalize(), time }
             }
-            Opening::Hole { radius, film_distance, upright } => {
+            Optics::Hole { radius, film_distance, upright } => {
                 // The hole projects the scene upside down. An upright picture shows each film point on the opposite
                 // side of the centre.
                 let across = if upright { -across } else { across };

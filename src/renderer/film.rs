@@ -1,7 +1,7 @@
 //! The images that a picture is made in.
 
 use crate::error::Result;
-use crate::passes::Adaptive;
+use crate::passes::AdaptiveBuffers;
 use crate::scene::{self, CameraModel, SceneRef};
 use crate::settings::{Estimator, Settings};
 use crate::vulkan::{Device, Image, Recording};
@@ -16,7 +16,7 @@ pub(super) struct FilmImages {
     pub(super) film: Arc<Image>,
     /// The resolved picture.
     pub(super) picture: Arc<Image>,
-    pub(super) adaptive: Arc<Adaptive>,
+    pub(super) adaptive: Arc<AdaptiveBuffers>,
     /// Whether the images have been cleared since they were made. Clearing gives them their layout.
     have_layout: bool,
 }
@@ -42,7 +42,7 @@ impl FilmImages {
             traced: Arc::new(Image::rgba32f(device, "tracing image", size)?),
             film: Arc::new(Image::rgba32f(device, "accumulation image", size)?),
             picture: Arc::new(Image::rgba8(device, "picture", size)?),
-            adaptive: Arc::new(Adaptive::new(device, has_moments.then_some(size))?),
+            adaptive: Arc::new(AdaptiveBuffers::new(device, has_moments.then_some(size))?),
             have_layout: false,
         })
     }

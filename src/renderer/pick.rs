@@ -104,8 +104,8 @@ impl Renderer {
         let inside = |axis: usize| question.position[axis].clamp(0.0, (extent[axis] as f32).next_down());
         let question = Question {
             position: [inside(0), inside(1)],
-            fan: question.fan.clamp(2, Pick::MOST_FAN),
-            samples: question.samples.min(Pick::MOST_SAMPLES),
+            fan: question.fan.clamp(2, Pick::MAX_FAN),
+            samples: question.samples.min(Pick::MAX_SAMPLES),
         };
         let Question { position, fan, samples } = question;
         let push =

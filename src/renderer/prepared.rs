@@ -153,7 +153,7 @@ impl Preparer {
 
     /// The largest batch whose loops stay within the limit of the device in one invocation of the trace pass.
     pub(super) fn largest_batch(&self, scene: &SceneBuffers, estimator: &Estimator) -> Result<u32> {
-        let steps = scene.most_loop_steps(estimator.max_bounces);
+        let steps = scene.max_loop_steps(estimator.max_bounces);
         let Some(most) = self.device.traits().max_loop_steps else {
             return Ok(MAX_BATCH);
         };
@@ -161,7 +161,7 @@ impl Preparer {
             Error::OutOfRange(format!(
                 "the scene can take {steps} steps a sample, but software devices stop at {most}: {}; use fewer of \
                  these, or a GPU",
-                scene.most_steps_in_words(estimator.max_bounces)
+                scene.explain_max_loop_steps(estimator.max_bounces)
             ))
         })
     }

@@ -10,7 +10,7 @@ use crate::gpu_types::{
     AccumulatePush, ApertureBuffer, Brightest, Camera, Counters, OverlayScale, ResolvePush, SelectPush,
     TracePush,
 };
-use crate::passes::Adaptive;
+use crate::passes::AdaptiveBuffers;
 use crate::vulkan::Recording;
 
 /// The most tiles in one submission. Without this limit, a small picture would need thousands.
@@ -35,8 +35,8 @@ impl Renderer {
 
     fn record_tiles(&mut self, recording: &mut Recording<'_>, pace: Pace) -> Work {
         // The rays of a submission are counted in 32 bits.
-        let most_rays = self.loaded.prepared.scene.most_rays(self.settings.estimator.max_bounces);
-        let budget = self.tally.work_within(pace.budget).min(u64::from(u32::MAX / most_rays));
+        let max_rays = self.loaded.prepared.scene.max_rays(self.settings.estimator.max_bounces);
+        let budget = self.tally.work_within(pace.budget).min(u64::from(u32::MAX / max_rays));
         let mut left = budget;
         let mut done = Work::default();
         let list_before = self.standing.list;
@@ -99,7 +99,7 @@ impl Renderer {
             // From the film to the list of active pixels.
             Stage::Select => {
                 if cursor.at == [0, 0] {
-                    recording.clear_buffer(images.adaptive.list(1 - list), Adaptive::LIST_HEADER);
+                    recording.clear_buffer(images.adaptive.list(1 - list), AdaptiveBuffers::LIST_HEADER);
                     if self.standing.list.is_none() {
                         images.adaptive.record_brightest(recording, &Brightest::new(estimator));
                     }

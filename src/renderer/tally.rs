@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::gpu_types::Counters;
-use crate::passes::Adaptive;
+use crate::passes::AdaptiveBuffers;
 use crate::vulkan::{Buffer, Device, FRAMES_IN_FLIGHT, Recording, Residence, Timer};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -88,7 +88,7 @@ impl Tally {
                 active: Buffer::new(
                     device,
                     "active pixels read-back",
-                    Adaptive::LIST_HEADER,
+                    AdaptiveBuffers::LIST_HEADER,
                     Residence::Staging,
                 )?,
                 pending: None,
@@ -141,7 +141,7 @@ impl Tally {
         recording.barrier();
         recording.copy_buffer(counters, &frame.counters, size_of::<Counters>() as u64);
         if let Some(list) = list {
-            recording.copy_buffer(list, &frame.active, Adaptive::LIST_HEADER);
+            recording.copy_buffer(list, &frame.active, AdaptiveBuffers::LIST_HEADER);
         }
         frame.pending =
             Some(Pending { picture: self.picture, work, started: Instant::now(), lists: list.is_some() });

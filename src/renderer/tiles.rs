@@ -48,7 +48,7 @@ impl Renderer {
         let [width, height] = of_stage.lattice_size(estimator.size);
         let is_listed = self.standing.list.is_some();
         let area = if is_listed {
-            schedule::listed_size(self.most_active(estimator))
+            schedule::listed_size(self.max_active_pixels(estimator))
         } else {
             // The area has whole rows of workgroups, because the last row of the picture is not visited last.
             [width, height.next_multiple_of(GROUP_SIZE)]
@@ -119,7 +119,7 @@ impl Renderer {
     }
 
     /// The largest possible number of pixels that are still traced.
-    fn most_active(&self, estimator: &Estimator) -> u64 {
+    fn max_active_pixels(&self, estimator: &Estimator) -> u64 {
         let [width, height] = estimator.size.map(u64::from);
         self.progress().active_pixels.unwrap_or(width * height)
     }

@@ -24,13 +24,13 @@ const MOVES: [f32; 2] = [0.2, 0.4];
 
 /// If the middle of a shape lies in more nodes than this, on average, moving nodes gains nothing and takes quadratic
 /// time.
-const MOST_CROWDED: usize = 500;
+const MAX_CROWDING: usize = 500;
 
 /// The binary tree of the boxes with these indices, at least one, in the order that [`along_curve`] gives. The tree's
 /// primitives are indices of boxes.
 pub(super) fn tree(bounds: &[Bounds], order: &[u32]) -> Bvh2 {
     let mut tree = cluster(bounds, order);
-    if crowding(&tree) <= MOST_CROWDED {
+    if crowding(&tree) <= MAX_CROWDING {
         let mut optimizer = ReinsertionOptimizer::default();
         MOVES.iter().for_each(|share| optimizer.run(&mut tree, *share, None));
     }

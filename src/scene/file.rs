@@ -8,7 +8,7 @@ use crate::input_file;
 use std::path::{Path, PathBuf};
 
 /// The largest size of a scene file in bytes. Parsing takes about fifty times as much memory.
-const MOST_TEXT: u64 = 128 << 20;
+const MAX_TEXT: u64 = 128 << 20;
 
 /// A scene and its file.
 pub struct Loaded {
@@ -49,7 +49,7 @@ fn load_named(scene: &Path) -> Result<Loaded> {
     let folder = scene.parent().unwrap_or(Path::new("")).to_path_buf();
     match scene.extension() {
         Some(extension) if extension.eq_ignore_ascii_case("toml") => {
-            let text = text::decode(input_file::read(scene, MOST_TEXT)?);
+            let text = text::decode(input_file::read(scene, MAX_TEXT)?);
             let text = text.map_err(|(line, message)| error_in(scene, line, message))?;
             let name = scene.file_stem().unwrap_or_default().to_string_lossy();
             let mut loaded = parse(&name, scene, &text)?;

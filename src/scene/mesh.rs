@@ -55,7 +55,7 @@ impl Mesh {
     /// [`Error::Read`], [`Error::Scene`] with a line, or [`Error::Mesh`].
     pub(super) fn read(path: &Path) -> Result<Self> {
         let file = path.display().to_string();
-        let text = input_file::read(path, input_file::MOST_BYTES)?;
+        let text = input_file::read(path, input_file::MAX_BYTES)?;
         let obj = obj::parse(&text).map_err(|error| match error {
             ObjError::Line(line, message) => Error::Scene { file: file.clone(), line, message },
             ObjError::Foreign(Foreign(what)) => {
@@ -191,7 +191,7 @@ fn colors(path: &Path, file: &str, obj: &Obj, read: &mut Vec<PathBuf>) -> Vec<Op
     let mut library = Library::default();
     for path in &files {
         let name = path.display();
-        match input_file::read(path, input_file::MOST_BYTES).map(|text| obj::parse_library(&text)) {
+        match input_file::read(path, input_file::MAX_BYTES).map(|text| obj::parse_library(&text)) {
             Ok(Ok(part)) => {
                 read.push(path.clone());
                 let (unreadable, first) = (&part.unreadable, &part.first_error);

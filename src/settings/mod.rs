@@ -265,7 +265,7 @@ impl Settings {
                 light *= (of_scene / now).powi(2);
             }
             if estimator.model != CameraModel::Pinhole {
-                light *= estimator.aperture.open_share() / scene.aperture.open_share();
+                light *= estimator.aperture.relative_area() / scene.aperture.relative_area();
             }
         }
         self.view.exposure_stops.exp2() * light as f32

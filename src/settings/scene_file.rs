@@ -32,7 +32,7 @@ impl Settings {
         let files = Files { from: own_folder, to: folder.to_path_buf() };
         let plain = Self::of_scene(SceneRef::new(scene));
         let saved = self.with_whole_exposure()?;
-        let apart = take_apart(&mut document);
+        let expanded = remove_aliases(&mut document);
         for setting in list::own() {
             let Some(key) = &setting.key else { continue };
             let changed = |flag: &str| {
@@ -44,7 +44,7 @@ impl Settings {
             // The path of a file depends on the folder of the scene file.
             let moves = matches!(value, Value::File(_));
             let follows = || key.rests_on.iter().any(|flag| changed(flag)) && !given;
-            if changed(setting.flag) || moves || apart.contains(&setting.flag) || follows() {
+            if changed(setting.flag) || moves || expanded.contains(&setting.flag) || follows() {
                 write(&mut document, setting, key, item(&value, &files)?);
             }
         }
@@ -77,16 +77,16 @@ impl Settings {
 
 /// Removes the keys that stand for several settings, such as a known lens, and returns the flags of these settings, to
 /// be written one by one, because any of them may have changed.
-fn take_apart(document: &mut DocumentMut) -> Vec<&'static str> {
-    let mut apart = Vec::new();
+fn remove_aliases(document: &mut DocumentMut) -> Vec<&'static str> {
+    let mut expanded = Vec::new();
     for alias in list::all() {
         if let (Role::Alias(of @ [_, _, ..]), Some(key)) = (alias.role, &alias.key)
             && table(document, key).and_then(|table| table.remove(key.name)).is_some()
         {
-            apart.extend(of);
+            expanded.extend(of);
         }
     }
-    apart
+    expanded
 }
 
 /// The table of a key, if the file has it.

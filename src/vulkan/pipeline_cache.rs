@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 /// Every scene adds its own pipelines, and drivers never remove one, so a file that is larger than this is started
 /// anew.
-const MOST_BYTES: usize = 64 << 20;
+const MAX_BYTES: usize = 64 << 20;
 /// The first bytes of every file. The checksum and the driver's data follow.
 const MAGIC: [u8; 8] = *b"thinlpc1";
 /// Bytes of magic and checksum.
@@ -117,7 +117,7 @@ fn open<'a>(bytes: &'a [u8], properties: &vk::PhysicalDeviceProperties) -> Resul
     if envelope[..8] != MAGIC {
         return Err("it is another kind of file");
     }
-    if data.len() > MOST_BYTES {
+    if data.len() > MAX_BYTES {
         return Err("it has grown large");
     }
     if envelope[8..] != checksum(data).to_le_bytes() || data.len() < HEADER {

@@ -115,10 +115,10 @@ impl Optics {
             View::Side => (&diagram.fan_up, 1),
             View::Top | View::Front => (&diagram.fan_across, 0),
         };
-        let (half, opening) = (diagram.half_picture[axis], diagram.half_aperture[axis]);
+        let (half, half_aperture) = (diagram.half_picture[axis], diagram.half_aperture[axis]);
         let points = [Some(diagram.q), diagram.focus.map(|focus| focus.1), diagram.hit];
         let aside = points.into_iter().flatten().map(|point| side.flat(point)[1]);
-        let aside: Vec<f64> = aside.chain([half, -half, opening, -opening]).collect();
+        let aside: Vec<f64> = aside.chain([half, -half, half_aperture, -half_aperture]).collect();
         let bounds = [[-0.05 * diagram.reach, diagram.reach], around(&aside)];
         paper.fit(bounds, f64::from(self.stretch), side);
         let list = paper.list;
@@ -138,7 +138,7 @@ impl Optics {
             if let Some((depth, _)) = diagram.focus {
                 paper.tall(depth, FOCUS);
             }
-            paper.upright(0.0, [-opening, opening], GLASS, 4.0);
+            paper.upright(0.0, [-half_aperture, half_aperture], GLASS, 4.0);
             paper.dot(diagram.q, FAINT, "q");
             if let Some(hit) = diagram.hit {
                 paper.dot(hit, LIGHT, "hit");
@@ -225,11 +225,11 @@ fn front(mut paper: Paper<'_>, diagram: &Diagram) {
 fn film_side(mut paper: Paper<'_>, diagram: &Diagram) {
     let image = &diagram.image;
     let v = image.film_distance;
-    let [across, opening] = diagram.half_aperture;
+    let [across, half_aperture] = diagram.half_aperture;
     let end = image.light_up.first().map_or(-1.08 * v, |line| line[1].z);
     let aside: Vec<f64> = (image.light_up.iter().flatten())
         .map(|point| point.y)
-        .chain([image.p.y, opening, -opening])
+        .chain([image.p.y, half_aperture, -half_aperture])
         .collect();
     paper.fit([[1.06 * end, 0.10 * v], around(&aside)], 1.0, View::Side);
     let list = paper.list;
@@ -240,10 +240,10 @@ fn film_side(mut paper: Paper<'_>, diagram: &Diagram) {
             paper.line(*line, LIGHT, 1.0);
         }
         paper.dashed([DVec3::ZERO, image.p], CENTRE);
-        paper.upright(0.0, [-opening, opening], GLASS, 4.0);
+        paper.upright(0.0, [-half_aperture, half_aperture], GLASS, 4.0);
         paper.dot(image.p, FOCUS, "p'");
         // The chief ray ends in the middle of the circle of confusion, which has the shape of the aperture.
-        let half = 0.5 * image.blur * (opening / across.max(opening).max(f64::MIN_POSITIVE));
+        let half = 0.5 * image.blur * (half_aperture / across.max(half_aperture).max(f64::MIN_POSITIVE));
         paper.upright(-v, [image.p.y - half, image.p.y + half], BLUR, 4.0);
         paper.title("Behind the lens: film and circle of confusion");
         paper.scale_bar();

@@ -17,7 +17,7 @@ const DRAGGING_BUDGET: Duration = Duration::from_millis(4);
 /// Tracing time per frame otherwise: most of a frame, but short enough that the window stays responsive.
 const RESTING_BUDGET: Duration = Duration::from_millis(30);
 /// The viewer ends if the device is lost more often than this.
-const MOST_LOSSES: u32 = 3;
+const MAX_LOSSES: u32 = 3;
 
 impl OpenWindow {
     pub(super) fn frame(&mut self) -> Result<()> {
@@ -73,7 +73,7 @@ impl OpenWindow {
             device: self.graphics.device_name(),
             picked: self.focus.under_pointer(),
             diagram: self.focus.diagram(),
-            loading: loader.opening().map(|name| format!("loading {} ...", name.display())),
+            loading: loader.loading().map(|name| format!("loading {} ...", name.display())),
         };
         let modifiers = self.modifiers.take(ui);
         let action = self.panel.draw(ui, &status).or_else(|| keys::pressed(ui, modifiers));
@@ -191,7 +191,7 @@ impl OpenWindow {
     /// Opens the device again after it was lost, and continues with the settings that were shown.
     pub(super) fn reopen(&mut self, error: Error) -> Result<()> {
         self.losses += 1;
-        if self.losses > MOST_LOSSES {
+        if self.losses > MAX_LOSSES {
             return Err(error);
         }
         log::warn!("{error}");

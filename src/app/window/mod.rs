@@ -30,7 +30,7 @@ const DEFAULT_SIZE: [u32; 2] = [1280, 720];
 const FRAMES_AFTER_EVENT: u32 = 3;
 /// imgui handles one press or release per frame, even when several arrive at once. This is the most frames that are
 /// drawn to catch up.
-const MOST_FRAMES_TO_DRAW: u32 = 30;
+const MAX_FRAMES_TO_DRAW: u32 = 30;
 /// The driver's thread that presents frames also reads from the window's connection. It can queue an event that winit
 /// does not notice until the next one arrives (seen with Mesa 25). So winit checks for events this often while a frame
 /// may still be on its way to the screen.
@@ -132,7 +132,7 @@ impl ApplicationHandler for Viewer {
                 }
                 let more = u32::from(report_input(&event));
                 open.frames_to_draw =
-                    (open.frames_to_draw + more).clamp(FRAMES_AFTER_EVENT, MOST_FRAMES_TO_DRAW);
+                    (open.frames_to_draw + more).clamp(FRAMES_AFTER_EVENT, MAX_FRAMES_TO_DRAW);
                 open.unshown_since.get_or_insert_with(Instant::now);
                 let scale = open.platform.hidpi_factor();
                 let event: Event<()> = Event::WindowEvent { window_id, event };

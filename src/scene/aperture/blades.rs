@@ -22,7 +22,7 @@ impl Blades {
 }
 
 impl Kind for Blades {
-    fn open_share(&self) -> f64 {
+    fn relative_area(&self) -> f64 {
         let (half, round) = (self.half_angle(), f64::from(self.roundness));
         // Twice the area of half a blade: of the triangle for a straight edge, and of the sector of the disc.
         ((1.0 - round) * half.sin() * half.cos() + round * half) / half

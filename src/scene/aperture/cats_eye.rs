@@ -10,7 +10,7 @@ pub struct CatsEye {
 }
 
 impl Kind for CatsEye {
-    fn open_share(&self) -> f64 {
+    fn relative_area(&self) -> f64 {
         1.0
     }
 }

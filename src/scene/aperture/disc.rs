@@ -7,7 +7,7 @@ use super::Kind;
 pub struct Disc;
 
 impl Kind for Disc {
-    fn open_share(&self) -> f64 {
+    fn relative_area(&self) -> f64 {
         1.0
     }
 }

@@ -7,7 +7,7 @@ use super::Kind;
 pub struct Ellipse;
 
 impl Kind for Ellipse {
-    fn open_share(&self) -> f64 {
+    fn relative_area(&self) -> f64 {
         1.0
     }
 }

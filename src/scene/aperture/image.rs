@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Images are reduced to at most this many cells on the longer side.
-const MOST_CELLS: u32 = 256;
+const MAX_CELLS: u32 = 256;
 /// The advice for a damaged file.
 const ANEW: &str = "save the image anew as a PNG";
 /// The value of a white, opaque pixel: the sum of three colours of 255, times an opacity of 255.
@@ -54,7 +54,7 @@ impl std::ops::Deref for ApertureImage {
 }
 
 impl Kind for ApertureImage {
-    fn open_share(&self) -> f64 {
+    fn relative_area(&self) -> f64 {
         let longer = f64::from(self.size[0].max(self.size[1]));
         let light: f64 = self.cells.iter().copied().map(f64::from).sum();
         light * (2.0 / longer).powi(2) / PI
@@ -86,7 +86,7 @@ impl ApertureImage {
 }
 
 /// The number of columns and rows, and the cells. Each is the mean of a square of pixels, so large that there are at
-/// most [`MOST_CELLS`] cells on the longer side.
+/// most [`MAX_CELLS`] cells on the longer side.
 fn decode(file: File) -> std::result::Result<([u32; 2], Vec<f32>), String> {
     let damaged = |error: png::DecodingError| format!("it is damaged ({error}); {ANEW}");
     let mut decoder = png::Decoder::new(BufReader::new(file));
@@ -98,12 +98,12 @@ fn decode(file: File) -> std::result::Result<([u32; 2], Vec<f32>), String> {
     if width.max(height) > MAX_EXTENT {
         return Err(format!(
             "it has {width} x {height} pixels, and may have {MAX_EXTENT} at most either way; make it \
-             smaller, for its light is averaged over {MOST_CELLS} x {MOST_CELLS} cells"
+             smaller, for its light is averaged over {MAX_CELLS} x {MAX_CELLS} cells"
         ));
     }
     let mut reader = decoder.read_info().map_err(damaged)?;
     let channels = reader.output_color_type().0.samples();
-    let step = width.max(height).div_ceil(MOST_CELLS);
+    let step = width.max(height).div_ceil(MAX_CELLS);
     let size = [width.div_ceil(step), height.div_ceil(step)];
     // The sums are whole numbers, so they do not depend on the order: an interlaced image gives the same cells.
     let mut sums = vec![0_u64; size[0] as usize * size[1] as usize];

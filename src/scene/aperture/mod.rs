@@ -1,5 +1,5 @@
-//! The aperture: the opening that light enters through. Each kind has a file here, with its values and the fraction of
-//! light that it lets in. `aperture_kinds` lists the kinds.
+//! The aperture: the opening that light enters through. Each kind has a file here, with its values and its area
+//! relative to that of a disc. `aperture_kinds` lists the kinds.
 
 mod blades;
 mod cats_eye;
@@ -27,7 +27,7 @@ macro_rules! aperture_kinds {
 /// What every kind of aperture implements.
 trait Kind {
     /// The area of the aperture as seen from the middle of the picture, divided by that of a disc of the same diameter.
-    fn open_share(&self) -> f64;
+    fn relative_area(&self) -> f64;
 }
 
 macro_rules! define_aperture {
@@ -41,8 +41,8 @@ macro_rules! define_aperture {
         }
 
         impl Kind for ApertureKind {
-            fn open_share(&self) -> f64 {
-                match self { $(Self::$kind(of) => of.open_share(),)+ }
+            fn relative_area(&self) -> f64 {
+                match self { $(Self::$kind(of) => of.relative_area(),)+ }
             }
         }
     };
@@ -116,8 +116,8 @@ impl Aperture {
     /// The area of the aperture as seen from the middle of the picture, divided by that of a disc of the same diameter.
     /// The corners of blades lie on the rim, so three blades let in 41% of the light of a disc, five 76%, six 83%,
     /// eight 90%.
-    pub fn open_share(&self) -> f64 {
+    pub fn relative_area(&self) -> f64 {
         let [half_width, half_height] = self.stretch();
-        half_width * half_height * self.kind(CameraModel::ThinLens).open_share()
+        half_width * half_height * self.kind(CameraModel::ThinLens).relative_area()
     }
 }

@@ -19,10 +19,10 @@ const ROUNDING: f64 = 1e-9;
 
 /// How often a polygon may visit each of its positions, on average. A polygon with a hole visits those twice where a line
 /// leads to the hole.
-const MOST_VISITS: usize = 3;
+const MAX_VISITS: usize = 3;
 
 /// The most corners of a polygon that is cut: cutting takes up to quadratic time.
-const MOST_CORNERS: usize = 1 << 17;
+const MAX_CORNERS: usize = 1 << 17;
 
 /// Cuts polygons anew whose fans reach out of them. Gives the number of polygons that have no right cut, because their
 /// edges cross. Each polygon keeps its number of triangles, some of which may have no area.
@@ -88,7 +88,7 @@ fn is_tangled(corners: &[Corner]) -> bool {
     let mut positions: Vec<u32> = corners.iter().map(|corner| corner.position).collect();
     positions.sort_unstable();
     positions.dedup();
-    corners.len() > MOST_CORNERS || corners.len() > MOST_VISITS * positions.len()
+    corners.len() > MAX_CORNERS || corners.len() > MAX_VISITS * positions.len()
 }
 
 #[derive(Default)]

@@ -5,10 +5,10 @@ mod camera;
 pub(super) mod error;
 mod material_list;
 mod mesh;
+mod messages;
 pub(super) mod number;
 pub(super) mod text;
 mod view;
-mod words;
 
 use super::light::{self, BackgroundTable, LightTable, background, light_kinds};
 use super::material::{self, material_kinds};
@@ -27,7 +27,7 @@ use view::{ViewTable, view};
 
 /// Reads the text of a scene file.
 pub(super) fn read(text: &str) -> Result<SceneFile, ParseError> {
-    words::read(text)
+    messages::read(text)
 }
 
 macro_rules! define_scene_file {

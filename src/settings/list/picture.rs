@@ -8,7 +8,7 @@ use crate::settings::{
 };
 
 /// The slider for points per pixel ends here, or at the number that the viewer was started with.
-const MOST_POINTS: u32 = 4096;
+const MAX_SLIDER_SAMPLES: u32 = 4096;
 
 /// The size of the picture, and the number of samples.
 pub(super) static PICTURE: &[Setting] = &[
@@ -37,7 +37,7 @@ pub(super) static PICTURE: &[Setting] = &[
             "Anti-aliasing points per pixel",
             "The number of rays that are averaged in each pixel: more rays give less noise. If you raise it, the picture continues with the rays that it has.",
             Widget::Slider(Slider {
-                range: |initial| [1.0, MOST_POINTS.max(initial.samples) as f32],
+                range: |initial| [1.0, MAX_SLIDER_SAMPLES.max(initial.samples) as f32],
                 format: |_| "%d".into(),
                 ..LOGARITHMIC
             }),

@@ -3,11 +3,11 @@
 use glam::Vec3;
 
 /// The number, or zero if it is denormal.
-pub(super) fn float(value: f32) -> f32 {
+pub(super) fn flush_denormal(value: f32) -> f32 {
     if value.is_subnormal() { 0.0 } else { value }
 }
 
 /// The components of a vector, with zeros in place of denormal numbers.
-pub(super) fn floats(vector: Vec3) -> [f32; 3] {
-    vector.to_array().map(float)
+pub(super) fn flush_denormals(vector: Vec3) -> [f32; 3] {
+    vector.to_array().map(flush_denormal)
 }
