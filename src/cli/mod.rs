@@ -5,7 +5,7 @@ mod settings;
 use crate::error::Result;
 use crate::scene::{self, BUILTINS, SceneRef};
 use crate::settings::{DEFAULT_SAMPLES, DeviceChoice, Place, Settings, Sweep, size};
-use clap::{Args, Parser, Subcommand};
+use clap::{ArgAction, Args, Parser, Subcommand};
 pub use settings::SettingsArgs;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -19,13 +19,16 @@ const SWEPT_F_NUMBERS: [f64; 4] = [2.8, 5.6, 11.0, 32.0];
     name = "thinlens",
     version,
     about = "Renders scenes through a thin lens, so that what lies off the focal plane is blurred",
+    // A command that was copied, or that an alias stands for, can be changed by options at its end.
+    args_override_self = true,
     after_help = "Try:\n  \
-        thinlens                                       the viewer, with sliders for the lens\n  \
-        thinlens render -o picture.png                 the default scene to a file\n  \
-        thinlens render -o sharp.png --lens-diameter 0 the same through a pinhole\n  \
-        thinlens render suffern-boxes -o boxes.exr     linear values and sample counts\n  \
-        thinlens sweep -o sheet.png                    four f-numbers side by side\n  \
-        thinlens render bunny.obj -o bunny.png         a mesh, on a ground, in focus"
+        thinlens                                       opens the viewer, with sliders for the lens\n  \
+        thinlens render -o picture.png                 renders the default scene to a file\n  \
+        thinlens render -o sharp.png --lens-diameter 0 renders it through a pinhole\n  \
+        thinlens render suffern-boxes -o boxes.exr     saves linear values and sample counts\n  \
+        thinlens sweep -o sheet.png                    shows four f-numbers side by side\n  \
+        thinlens render bunny.obj -o bunny.png         shows a mesh on a ground, in focus\n\n\
+        If an option is given twice, the last one counts."
 )]
 pub struct Cli {
     /// The command. Without one, the viewer opens.
@@ -36,21 +39,24 @@ pub struct Cli {
 /// A command.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Open the viewer (the default); with no display, render to thinlens.png
+    /// Open the viewer, which is the default; without a display, render to thinlens.png instead
     View(ViewArgs),
-    /// Render a picture to a file, without a window
+    /// Render a scene without a window, and save the picture as a PNG or EXR file
     Render(RenderArgs),
-    /// Render a sheet of pictures side by side: of several f-numbers, lens diameters or focal distances
+    /// Render a scene with several f-numbers, lens diameters or focal distances, and save the pictures side by
+    /// side in one PNG file
     Sweep(SweepArgs),
-    /// Save a scene as a file, with the camera, the lens and the view that options give it
+    /// Save a scene as a .toml file, with the camera, lens and view that the options choose
     Save(SaveArgs),
-    /// Prove a device: hold what it renders against the same mathematics in f64, sample by sample
+    /// Check a device: render small pictures on it, compare every sample with the same computation in f64 on the
+    /// CPU, and print how many differ
     Verify(VerifyArgs),
-    /// Measure a device: throughput, first picture, and how the error falls, for every sampler
+    /// Measure a device: print how many samples it renders per second, how long the first picture takes, and how
+    /// the error decreases, for every sampler
     Bench(BenchArgs),
-    /// List the built-in scenes
+    /// Print the names of the built-in scenes, and what each shows
     Scenes,
-    /// List the Vulkan devices that --device can name
+    /// Print the Vulkan devices, with the indices and names that --device takes
     Devices,
 }
 
@@ -60,7 +66,7 @@ pub struct ViewArgs {
     /// What to render.
     #[command(flatten)]
     pub settings: SettingsArgs,
-    /// On which device, and whether it is watched.
+    /// The device to render on.
     #[command(flatten)]
     pub device: DeviceArgs,
 }
@@ -68,14 +74,15 @@ pub struct ViewArgs {
 /// `thinlens render`.
 #[derive(Debug, Args)]
 pub struct RenderArgs {
-    /// Render a picture again that thinlens saved, with the settings that it carries; other options change
-    /// them
+    /// Render a picture again that thinlens saved, with the settings that the file contains; other options
+    /// change them
     #[arg(long, value_name = "PICTURE.png|PICTURE.exr", conflicts_with = "scene")]
     pub from: Option<PathBuf>,
     /// What to render.
     #[command(flatten)]
     pub settings: SettingsArgs,
-    /// Focus on what the picture shows at this pixel, counted from the upper left corner, or in the middle
+    /// Focus on what the picture shows at this pixel, counted from the upper left corner; without a pixel, focus
+    /// on what it shows in the middle
     #[arg(
         long,
         value_name = "X,Y",
@@ -86,16 +93,17 @@ pub struct RenderArgs {
         conflicts_with = "focal-distance"
     )]
     pub autofocus: Option<Place>,
-    /// The picture: .png (8-bit sRGB) or .exr (linear f32 R, G, B, and count: samples per pixel)
+    /// The file to save the picture to: .png (8-bit sRGB) or .exr (linear f32: R, G, B, and the samples per
+    /// pixel as count)
     #[arg(short, long, value_name = "OUT.png|OUT.exr")]
     pub output: PathBuf,
-    /// Also write figures of the rendering, as JSON
+    /// Also write samples, rays, times and the device to a JSON file
     #[arg(long, value_name = "FILE.json")]
     pub stats: Option<PathBuf>,
-    /// On which device, and whether it is watched.
+    /// The device to render on.
     #[command(flatten)]
     pub device: DeviceArgs,
-    /// Say nothing but warnings and errors
+    /// Print only warnings and errors
     #[arg(short, long)]
     pub quiet: bool,
 }
@@ -103,32 +111,31 @@ pub struct RenderArgs {
 /// `thinlens sweep`.
 #[derive(Debug, Args)]
 #[command(
-    mut_arg("size", |size| size.help("Size of each picture in pixels [default: the scene's]")),
+    mut_arg("size", |size| size.help("The size of each picture in pixels [default: the scene's]")),
 )]
 pub struct SweepArgs {
-    /// What the pictures have in common. The brightness stays from one to the next, unless the exposure is not
-    /// locked.
+    /// What the pictures have in common. All are equally bright, unless the exposure lock is off.
     #[command(flatten)]
     pub settings: SettingsArgs,
-    /// Of which lenses, by f-number [default: 2.8,5.6,11,32]
-    #[arg(long, value_name = "N,N,...", value_delimiter = ',', num_args = 1, group = "swept")]
+    /// Render one picture for each of these f-numbers [default: 2.8,5.6,11,32]
+    #[arg(long, value_name = "N,N,...", value_delimiter = ',', action = ArgAction::Set, group = "swept")]
     f_numbers: Vec<f64>,
-    /// Of which lenses, by diameter in scene units; 0 is a pinhole
-    #[arg(long, value_name = "L,L,...", value_delimiter = ',', num_args = 1, group = "swept")]
+    /// Render one picture for each of these lens diameters, in scene units; 0 is a pinhole
+    #[arg(long, value_name = "L,L,...", value_delimiter = ',', action = ArgAction::Set, group = "swept")]
     lens_diameters: Vec<f32>,
-    /// With which planes in focus, by distance in scene units
-    #[arg(long, value_name = "L,L,...", value_delimiter = ',', num_args = 1, group = "swept")]
+    /// Render one picture for each of these distances of the focal plane, in scene units
+    #[arg(long, value_name = "L,L,...", value_delimiter = ',', action = ArgAction::Set, group = "swept")]
     focal_distances: Vec<f32>,
-    /// Pictures in a row [default: about as many as rows]
+    /// The number of pictures in a row [default: about the number of rows]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub columns: Option<u32>,
-    /// The sheet, 8-bit sRGB
+    /// The file to save the sheet to, in 8-bit sRGB
     #[arg(short, long, value_name = "OUT.png")]
     pub output: PathBuf,
-    /// On which device, and whether it is watched.
+    /// The device to render on.
     #[command(flatten)]
     pub device: DeviceArgs,
-    /// Say nothing but warnings and errors
+    /// Print only warnings and errors
     #[arg(short, long)]
     pub quiet: bool,
 }
@@ -140,7 +147,7 @@ pub struct SaveArgs {
     /// What to save. How it is sampled is not part of a scene.
     #[command(flatten)]
     pub settings: SettingsArgs,
-    /// The scene file
+    /// The file to save the scene to
     #[arg(short, long, value_name = "OUT.toml")]
     pub output: PathBuf,
 }
@@ -152,7 +159,7 @@ pub struct VerifyArgs {
     /// What to render.
     #[command(flatten)]
     pub settings: SettingsArgs,
-    /// On which device, and whether it is watched.
+    /// The device to render on.
     #[command(flatten)]
     pub device: DeviceArgs,
 }
@@ -160,21 +167,21 @@ pub struct VerifyArgs {
 /// `thinlens bench`.
 #[derive(Debug, Args)]
 pub struct BenchArgs {
-    /// Built-in scenes (see thinlens scenes), .toml or .obj files [default: every built-in one]
+    /// Built-in scenes (see thinlens scenes), .toml or .obj files [default: every built-in scene]
     scenes: Vec<PathBuf>,
-    /// Picture size in pixels; the error is measured at 320x240 at most
+    /// The size of the pictures in pixels; the error is measured with at most 320x240
     #[arg(short, long, value_name = "WxH", value_parser = parse_size, default_value = "640x480")]
     size: [u32; 2],
-    /// Antialiasing points per pixel of the pictures that throughput is measured with
+    /// The number of antialiasing points per pixel, with which samples per second are measured
     #[arg(short = 'n', long, value_name = "N", allow_negative_numbers = true, default_value_t = DEFAULT_SAMPLES)]
     samples: u32,
-    /// How often everything is measured, after a warm-up
+    /// How many times everything is measured, after a warm-up
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 5)]
     pub runs: u32,
-    /// Give the figures as JSON, with spreads: to FILE beside the table, or in place of it
+    /// Write all figures with their spreads as JSON, to FILE; without FILE, print them instead of the table
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = "-")]
     pub json: Option<PathBuf>,
-    /// On which device, and whether it is watched.
+    /// The device to render on.
     #[command(flatten)]
     pub device: DeviceArgs,
 }
@@ -182,10 +189,10 @@ pub struct BenchArgs {
 /// The device to render on.
 #[derive(Debug, Args, Default)]
 pub struct DeviceArgs {
-    /// Vulkan device, by its index or part of its name (see thinlens devices) [default: the best]
+    /// The Vulkan device, by its index or a part of its name (see thinlens devices) [default: the best]
     #[arg(long, value_name = "INDEX|NAME")]
     pub device: Option<String>,
-    /// Check every Vulkan call with the Khronos validation layer; any message is a failure
+    /// Check every Vulkan call with the Khronos validation layer, and fail if it reports anything
     #[arg(long)]
     pub validation: bool,
 }

@@ -102,10 +102,11 @@ pub(super) fn for_saving(option: Arg) -> Arg {
 /// Hides options from the command that verifies devices: it compares single samples before they are shown.
 pub(super) fn for_verifying(option: Arg) -> Arg {
     let option = match option.get_id().as_str() {
-        "scene" => option
-            .help("A built-in scene (see thinlens scenes), .toml or .obj file [default: every built-in one]"),
-        "samples" => option.help("Antialiasing points per pixel [default: 16]"),
-        "size" => option.help("Picture size in pixels [default: 128x96]"),
+        "scene" => option.help(
+            "A built-in scene (see thinlens scenes), .toml or .obj file [default: every built-in scene]",
+        ),
+        "samples" => option.help("The number of antialiasing points per pixel [default: 16]"),
+        "size" => option.help("The size of the pictures in pixels [default: 128x96]"),
         _ => option,
     };
     hide(option, |setting| setting.role == Role::View || setting.flag == "noise-threshold")
