@@ -3,7 +3,7 @@
 //! # The way of the data
 //!
 //! ```text
-//! cli / app (flags, sliders) -> Settings -> Scene -> GPU twins -> Renderer
+//! cli / app (options, sliders) -> Settings -> Scene -> GPU structs -> Renderer
 //!   -> trace.comp -> accumulate.comp -> resolve.comp -> output::file | window
 //! ```
 //!

@@ -1,4 +1,4 @@
-//! The shape of the opening: blades, cat's eye, anamorphic, image.
+//! The shape of the aperture: blades, cat's eye, anamorphic, image.
 
 mod common;
 
@@ -146,12 +146,12 @@ fn cell([x, y]: [f64; 2]) -> usize {
     row * CELLS + column
 }
 
-/// Catches a shape of another size, turned, mirrored or with its corners elsewhere; light that comes in
-/// more in the middle than at the rim; and points that are thrown away, for then equal parts of the sample
-/// values would not be equal parts of the opening. Each shape is written again by the book, and its light
-/// summed over a fine grid.
+/// Catches a shape that has another size, is turned or mirrored, or has its corners elsewhere; light that comes in more
+/// in the middle than at the rim; and points that are thrown away, because equal parts of the sample values would then
+/// not be equal parts of the aperture. The test computes each shape anew by the book, and sums its light over a fine
+/// grid.
 #[test]
-fn light_comes_in_evenly_all_over_the_opening() {
+fn light_comes_in_evenly_all_over_the_aperture() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let shapes = shapes(folder.path());
     let values_of_samples: Vec<[f64; 2]> = (0..POINTS)
@@ -313,7 +313,7 @@ fn what_is_no_aperture_is_refused() {
 /// Catches brightness that goes with the diameter alone where the shape leaves less open, while it is not locked: by
 /// the areas of regular polygons, ovals and images.
 #[test]
-fn unlocked_brightness_goes_with_the_area_of_the_opening() {
+fn unlocked_brightness_is_proportional_to_the_area_of_the_aperture() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("half.png");
     // Two by four pixels, of which half are white: as open as half of half a square.
