@@ -32,7 +32,7 @@ layout(push_constant, std430) uniform PickPush {
 layout(set = 0, binding = BINDING_PICKED_RAYS, std430) writeonly buffer PickedRays { PickedRay picked[]; };
 
 // The point of the lens, whose radius is one, that a ray passes: the centre, or a point of a fan from rim to rim.
-vec2 opening_point(uint ray) {
+vec2 fan_point(uint ray) {
     if (ray == 0u) {
         return vec2(0.0);
     }
@@ -51,14 +51,14 @@ void main() {
     uvec2 pixel = uvec2(push.position);
     vec2 offset = push.position - vec2(pixel) - 0.5;
     vec2 q = view_plane_point(push.camera, push.extent, pixel, offset);
-    vec2 opening = opening_point(i);
+    vec2 lens_point = fan_point(i);
     if (i > 2u * push.fan) {
         uvec4 keys = sample_keys(push.seed, pixel, BLOCK_FILM_AND_LENS);
         vec4 xi = sample_values(keys, i - 1u - 2u * push.fan);
         q = view_plane_point(push.camera, push.extent, pixel, film_offset(xi.xy, push.camera.jitter));
-        opening = aperture_point(q, xi.zw).xy;
+        lens_point = aperture_point(q, xi.zw).xy;
     }
-    Ray ray = primary_ray(push.camera, q, opening);
+    Ray ray = primary_ray(push.camera, q, lens_point);
     bool given_up = false;
     Hit hit = intersect_scene(ray, given_up);
     Camera camera = push.camera;

@@ -103,7 +103,7 @@ pub mod constant {
         /// The number of nodes on the longest path from the tree's root to a leaf; 0 where there is no tree.
         TREE_DEPTH,
         /// The most steps that a ray may take in the tree.
-        MOST_TREE_STEPS,
+        MAX_TREE_STEPS,
         /// The kind of aperture: one of [`aperture`](super::aperture).
         APERTURE,
         /// Where the range of the first kind of shapes ends in the list. The constants of the other kinds have the
@@ -271,7 +271,7 @@ numbers! {
     /// The shifts of this many entries of the stack are spelled out. A loop shifts the entries below them.
     SPELLED_OUT_STACK: U32(u32) = 20;
     /// The most blades of an iris.
-    MOST_BLADES: U32(u32) = 16;
+    MAX_BLADES: U32(u32) = 16;
     /// The coarsest preview traces the pixels [`PREVIEW_SITE`] + [`PREVIEW_STRIDE`] i.
     PREVIEW_STRIDE: U32(u32) = 4;
     /// Where the traced pixel lies in its cell of the preview: see [`PREVIEW_STRIDE`].

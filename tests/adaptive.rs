@@ -33,7 +33,7 @@ fn relative_error(samples: &[f64]) -> f64 {
 
 /// The largest share of a pixel's brightness that is lost on average because all samples of 3 x 3 pixels miss the brightest
 /// thing that the pixel can meet. `p (1 - p)^N` is largest where p is `1 / N`, and there it is about `1 / (e N)`.
-fn most_lost(samples: &[f64], brightest: f64) -> f64 {
+fn possible_loss(samples: &[f64], brightest: f64) -> f64 {
     let count = samples.len() as f64;
     let mean = samples.iter().sum::<f64>() / count;
     (brightest - mean).max(0.0) / (E * 9.0 * count) / mean.max(0.05)
@@ -59,7 +59,7 @@ fn expected_counts(settings: &Settings) -> Vec<usize> {
             .map(|((count, samples), brightest)| {
                 let samples = &samples[..*count];
                 relative_error(samples) >= threshold.min(0.2)
-                    || most_lost(samples, *brightest) >= threshold.min(0.02)
+                    || possible_loss(samples, *brightest) >= threshold.min(0.02)
             })
             .collect();
         let near = |at: usize, edge: usize| at.saturating_sub(1)..(at + 2).min(edge);

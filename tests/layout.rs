@@ -24,7 +24,7 @@ fn twins() -> Vec<Twin> {
         twin!("Material", Material, [color, ka, kd, ks, exponent, kind]),
         twin!("Light", Light, [radiance, kind, position_or_direction]),
         twin!("Environment", Environment, [horizon, zenith, ambient, bounding_radius]),
-        twin!("SceneCounts", SceneCounts, [list_ends, list_begin, lights, shadow_lights, most_tree_steps]),
+        twin!("SceneCounts", SceneCounts, [list_ends, list_begin, lights, shadow_lights, max_tree_steps]),
         twin!("EnvironmentBuffer", EnvironmentBuffer, [environment, counts]),
         twin!("Counters", Counters, [rays, rejected_samples, listed_samples]),
         twin!(

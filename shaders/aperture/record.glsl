@@ -30,7 +30,7 @@ struct Aperture {
 
 layout(set = 0, binding = BINDING_APERTURE, std430) readonly buffer ApertureBuffer {
     Aperture shape;
-    vec2 edges[MOST_BLADES]; // the directions from the centre to the middles of the blades' edges
+    vec2 edges[MAX_BLADES]; // the directions from the centre to the middles of the blades' edges
 } aperture_buffer;
 
 // A copy of the aperture, for the same reason as the copy of the scene: see keep_scene.

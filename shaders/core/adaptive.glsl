@@ -68,7 +68,7 @@ float relative_error(vec4 film, float moment) {
 //
 // This function returns that loss for the brightest thing that the pixel's rays can meet, relative to the pixel's mean.
 // N counts the samples of the neighbouring pixels too, because a pixel goes on if one of them hits something.
-float most_lost(vec4 film, float brightest) {
+float possible_loss(vec4 film, float brightest) {
     const float E = 2.718281828;
     const float PIXELS_AROUND = 9.0;
     float mean = luminance(film.rgb);
@@ -76,7 +76,7 @@ float most_lost(vec4 film, float brightest) {
 }
 
 // The largest loss that is allowed, however large the allowed error is: the light would be missing from whole discs.
-const float MOST_LOST = 0.02;
+const float MAX_LOSS = 0.02;
 
 // Larger thresholds are reduced to this one, which is the error after 25 hits. A pixel that stops after fewer hits
 // stops because they came early, and is too bright: D. Kirk and J. Arvo, "Unbiased Sampling Techniques for Image
@@ -86,7 +86,7 @@ const float LARGEST_THRESHOLD = 0.2;
 // Whether a pixel needs more samples, regardless of the pixels around it.
 bool is_noisy(vec4 film, float moment, float brightest, float threshold) {
     return relative_error(film, moment) >= min(threshold, LARGEST_THRESHOLD)
-        || most_lost(film, brightest) >= min(threshold, MOST_LOST);
+        || possible_loss(film, brightest) >= min(threshold, MAX_LOSS);
 }
 
 #endif

@@ -43,15 +43,15 @@ vec4 trace_batch(TracePush push, uvec2 pixel, out float moment) {
         vec4 xi = sample_values(keys, push.first_sample + i);
         vec2 offset = film_offset(xi.xy, push.camera.jitter);
         vec2 q = view_plane_point(push.camera, push.lattice.extent, pixel, offset);
-        vec3 opening = aperture_point(q, xi.zw);
-        Ray ray = primary_ray(push.camera, q, opening.xy);
+        vec3 lens_point = aperture_point(q, xi.zw);
+        Ray ray = primary_ray(push.camera, q, lens_point.xy);
         if (SCENE_MOVES == 1u) {
             ray_time = (time_value(time_keys, push.first_sample + i) - 0.5) * aperture.shutter;
         }
         bool given_up;
         PathSampler path = PathSampler(push.seed, pixel, push.first_sample + i);
         vec3 color = radiance(ray, path, push.max_bounces, rays, given_up);
-        color *= opening.z;
+        color *= lens_point.z;
         if (!given_up && is_finite(color)) {
             vec4 one = vec4(color, 1.0);
             if (HAS_MOMENTS == 1u) {

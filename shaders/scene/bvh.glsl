@@ -15,13 +15,13 @@ const float BOX_SLACK = 1.0 + 1e-6;
 // The number of nodes on the longest path from the root to a leaf. The search can leave children behind at each.
 layout(constant_id = ID_TREE_DEPTH) const uint TREE_DEPTH = 0u; // 0: no tree
 // A ray that needs more steps than this is given up: Mesa's software device would end its loop silently later on.
-layout(constant_id = ID_MOST_TREE_STEPS) const uint MOST_TREE_STEPS = 1024u;
-uint most_tree_steps() { if (SCENE_IS_KEPT == 1u) { return MOST_TREE_STEPS; } return counts.most_tree_steps; }
+layout(constant_id = ID_MAX_TREE_STEPS) const uint MAX_TREE_STEPS = 1024u;
+uint max_tree_steps() { if (SCENE_IS_KEPT == 1u) { return MAX_TREE_STEPS; } return counts.max_tree_steps; }
 
 // A node: the bounding boxes of its children. Their planes lie on a grid that each node has for itself.
 struct TreeNode {
     vec3 origin;
-    uint about; // bytes: the exponents of the grid's steps along x, y and z, and the number of children
+    uint exponents_and_child_count; // bytes: the exponents of the grid's steps along x, y and z; the number of children
     uvec2 planes_x; // a byte for each child: the lower planes, then the upper planes
     uvec2 planes_y;
     uvec2 planes_z;
@@ -69,7 +69,8 @@ uint child_key(vec3 enter, vec3 leave, float limit, uint child, bool exists) {
 const uint NO_CHILDREN = 1u;
 
 uint meet_children(Ray ray, vec3 inverse_direction, float limit, bool sorted, TreeNode node) {
-    vec3 step = uintBitsToFloat(uvec3(node.about << 23u, node.about << 15u, node.about << 7u) & 0x7f800000u) * inverse_direction;
+    uvec3 exponents = uvec3(node.exponents_and_child_count) << uvec3(23u, 15u, 7u) & 0x7f800000u;
+    vec3 step = uintBitsToFloat(exponents) * inverse_direction;
     vec3 origin = (node.origin - ray.origin) * inverse_direction;
     bvec3 backwards = lessThan(inverse_direction, vec3(0.0));
     uvec2 x = backwards.x ? node.planes_x.yx : node.planes_x;
@@ -80,7 +81,7 @@ uint meet_children(Ray ray, vec3 inverse_direction, float limit, bool sorted, Tr
         uint by = 8u * child;
         vec3 enter = vec3(x.x >> by & 0xffu, y.x >> by & 0xffu, z.x >> by & 0xffu) * step + origin;
         vec3 leave = vec3(x.y >> by & 0xffu, y.y >> by & 0xffu, z.y >> by & 0xffu) * step + origin;
-        keys[child] = child_key(enter, leave, limit, child, child < child_count(node.about));
+        keys[child] = child_key(enter, leave, limit, child, child < child_count(node.exponents_and_child_count));
     }
     if (sorted) {
         SORT(keys[0], keys[1])
@@ -131,7 +132,7 @@ float search_tree(Ray ray, vec3 inverse_direction, float limit, bool any_will_do
     float distance = MISS;
     nearest = 0u;
     uint steps = 0u;
-    uint most_steps = most_tree_steps();
+    uint max_steps = max_tree_steps();
     stack[TREE_DEPTH] = NO_CHILDREN;
     [[unroll]] for (uint i = 0u; i < TREE_DEPTH; ++i) {
         stack[i] = NO_CHILDREN;
@@ -168,7 +169,7 @@ float search_tree(Ray ray, vec3 inverse_direction, float limit, bool any_will_do
         }
         searching = children != NO_CHILDREN && !(any_will_do && distance < limit);
         ++steps;
-    } while (searching && steps < most_steps);
+    } while (searching && steps < max_steps);
     given_up = given_up || searching;
     return distance < limit ? distance : MISS;
 }

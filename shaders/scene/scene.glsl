@@ -35,7 +35,7 @@ struct SceneCounts {
     uint list_begin; // the record of the list's first shape
     uint lights;
     uint shadow_lights; // these come first, and cast shadows
-    uint most_tree_steps; // a ray that needs more is given up
+    uint max_tree_steps; // a ray that needs more is given up
 };
 
 // The kinds of shapes in the scene, a bit for each: the code for all other kinds is left out.
@@ -73,8 +73,8 @@ void fetch_record(uint index, out uvec4 record[3]) {
 
 // The number of a node's children, from the last word of its first texel. In a shape's record this word is the index of
 // the material, which is too small to reach the upper byte.
-uint child_count(uint about) {
-    return about >> 24u;
+uint child_count(uint exponents_and_child_count) {
+    return exponents_and_child_count >> 24u;
 }
 
 // The shape in a record. A node becomes a shape of size zero.

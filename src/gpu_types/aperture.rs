@@ -1,6 +1,6 @@
 //! Apertures in the form that the shaders read.
 
-use crate::interface::{MOST_BLADES, aperture, constant};
+use crate::interface::{MAX_BLADES, aperture, constant};
 use crate::scene::{ApertureImage, ApertureKind, BLADES, Blades, CatsEye};
 use crate::settings::Estimator;
 use bytemuck::{Pod, Zeroable};
@@ -30,7 +30,7 @@ pub struct Aperture {
 #[derive(Debug, Clone, Copy, Pod, Zeroable, PartialEq)]
 pub struct ApertureBuffer {
     pub shape: Aperture,
-    pub edges: [[f32; 2]; MOST_BLADES as usize],
+    pub edges: [[f32; 2]; MAX_BLADES as usize],
 }
 
 /// `APERTURE` of aperture/record.glsl.
@@ -50,7 +50,7 @@ impl ApertureBuffer {
     pub fn new(estimator: &Estimator) -> Self {
         let mut stretch = estimator.aperture.stretch();
         let mut shape = Aperture { cells: [1, 1], shutter: estimator.shutter, ..Zeroable::zeroed() };
-        let mut edges = [[0.0; 2]; MOST_BLADES as usize];
+        let mut edges = [[0.0; 2]; MAX_BLADES as usize];
         match estimator.aperture.kind(estimator.model) {
             ApertureKind::Disc(_) | ApertureKind::Ellipse(_) => {}
             ApertureKind::Blades(blades) => add_blades(&mut shape, &mut edges, blades),
@@ -119,4 +119,4 @@ fn running_sums(light: impl Iterator<Item = f64>) -> Vec<f32> {
     sums.iter().map(|sum| (sum / all) as f32).collect()
 }
 
-const _: () = assert!(BLADES[1] <= MOST_BLADES);
+const _: () = assert!(BLADES[1] <= MAX_BLADES);

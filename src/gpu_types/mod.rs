@@ -22,14 +22,14 @@ use crate::scene::{CameraModel, Hole};
 use crate::settings::{Estimator, Sampler, Settings};
 use bytemuck::{Pod, Zeroable};
 
-/// The three texels of a node in bvh.glsl. The upper byte of `about` is the number of children. A [`ShapeRecord`] has
-/// its material there, an index so small that its upper byte is zero, which tells shapes from nodes. `first` lies where
-/// a shape has an integer too.
+/// The three texels of a node in bvh.glsl. The upper byte of `exponents_and_child_count` is the number of children. A
+/// [`ShapeRecord`] has its material there, an index so small that its upper byte is zero, which distinguishes shapes from
+/// nodes. `first` is at a place where a shape has an integer too.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub struct TreeNode {
     pub origin: [f32; 3],
-    pub about: u32,
+    pub exponents_and_child_count: u32,
     pub planes_x: [u32; 2],
     pub planes_y: [u32; 2],
     pub planes_z: [u32; 2],

@@ -52,7 +52,7 @@ pub struct SceneCounts {
     pub list_begin: u32,
     pub lights: u32,
     pub shadow_lights: u32,
-    pub most_tree_steps: u32,
+    pub max_tree_steps: u32,
 }
 
 /// `EnvironmentBuffer` of scene.glsl.
@@ -114,7 +114,7 @@ impl SceneData {
                 list_begin: count(nodes.len()),
                 lights: count(lights.len()),
                 shadow_lights: count(shadowing().count()),
-                most_tree_steps: count(nodes.len()),
+                max_tree_steps: count(nodes.len()),
             },
             shape_kinds: bits(shapes.iter().map(|shape| shape.kind)),
             normals: corner_normals(in_tree),
@@ -168,7 +168,7 @@ fn tree_node(node: &Node) -> TreeNode {
     let [planes_x, planes_y, planes_z] = node.planes.map(|planes| planes.map(u32::from_le_bytes));
     TreeNode {
         origin: flush_denormals(node.origin),
-        about: x | y << 8 | z << 16 | node.children << 24,
+        exponents_and_child_count: x | y << 8 | z << 16 | node.children << 24,
         planes_x,
         planes_y,
         planes_z,

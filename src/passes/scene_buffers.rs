@@ -49,8 +49,8 @@ impl SceneBuffers {
             });
         }
         let traits = device.traits();
-        let most_tree_steps = scene.counts.most_tree_steps.min(traits.max_tree_steps.unwrap_or(u32::MAX));
-        let counts = SceneCounts { most_tree_steps, ..scene.counts };
+        let max_tree_steps = scene.counts.max_tree_steps.min(traits.max_tree_steps.unwrap_or(u32::MAX));
+        let counts = SceneCounts { max_tree_steps, ..scene.counts };
         let listed = scene.records.len() - counts.list_begin as usize;
         let few = listed.max(scene.materials.len()).max(scene.lights.len()) <= MAX_KEPT;
         let kept = traits.keeps_scene && few;
@@ -87,7 +87,7 @@ impl SceneBuffers {
             (constant::TEXTURE_KINDS, scene.texture_kinds),
             (constant::LIGHT_KINDS, scene.light_kinds),
             (constant::HAS_CORNER_NORMALS, (!scene.normals.is_empty()).into()),
-            (constant::MOST_TREE_STEPS, known(counts.most_tree_steps)),
+            (constant::MAX_TREE_STEPS, known(counts.max_tree_steps)),
         ];
         constants.extend((constant::SHAPE_END..).zip(counts.list_ends.map(known)));
         Ok(Self { bindings, constants, counts, tree_depth, reflects: scene.reflects })
@@ -107,7 +107,7 @@ impl SceneBuffers {
     /// over lights and reflections, and in the sampler.
     pub fn max_loop_steps(&self, max_bounces: u32) -> u64 {
         let too_deep = u64::from(self.tree_depth.saturating_sub(SPELLED_OUT_STACK));
-        let tree = u64::from(self.counts.most_tree_steps) * (1 + too_deep);
+        let tree = u64::from(self.counts.max_tree_steps) * (1 + too_deep);
         let shapes = u64::from(self.listed_shapes()) + tree;
         let lights = u64::from(self.counts.lights);
         SAMPLER_LOOP_STEPS + u64::from(self.max_surfaces(max_bounces)) * (1 + shapes + lights * (1 + shapes))
@@ -119,7 +119,7 @@ impl SceneBuffers {
         let bounded = self.counts.list_ends[shape::FIRST_UNBOUNDED as usize - 1];
         let planes = self.listed_shapes() - bounded;
         let shapes = match bounded {
-            0 => format!("up to {} steps in the tree of shapes", self.counts.most_tree_steps),
+            0 => format!("up to {} steps in the tree of shapes", self.counts.max_tree_steps),
             listed => format!("{listed} shapes"),
         };
         let reflections = self.max_surfaces(max_bounces) - 1;

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 
-// A point of the opening, for a film point and two sample values.
+// A point of the aperture, for a film point and two sample values.
 
 layout(local_size_x = 64) in;
 
