@@ -61,7 +61,7 @@ pub enum Error {
     },
     /// A scene or picture has more of something than there can be, however much memory there is.
     #[error(
-        "{what} would take {wanted} {unit}, but can have {most} at most ({limit}); {advice}, or try another device \
+        "{what} would take {wanted} {unit}, but can have {max} at most ({limit}); {advice}, or try another device \
          (thinlens devices)"
     )]
     Limit {
@@ -72,7 +72,7 @@ pub enum Error {
         /// How many it would take.
         wanted: u64,
         /// How many there can be.
-        most: u64,
+        max: u64,
         /// Which limit that is.
         limit: String,
         /// What to change.

@@ -81,11 +81,11 @@ const float MAX_LOSS = 0.02;
 // Larger thresholds are reduced to this one, which is the error after 25 hits. A pixel that stops after fewer hits
 // stops because they came early, and is too bright: D. Kirk and J. Arvo, "Unbiased Sampling Techniques for Image
 // Synthesis", SIGGRAPH 1991.
-const float LARGEST_THRESHOLD = 0.2;
+const float MAX_THRESHOLD = 0.2;
 
 // Whether a pixel needs more samples, regardless of the pixels around it.
 bool is_noisy(vec4 film, float moment, float brightest, float threshold) {
-    return relative_error(film, moment) >= min(threshold, LARGEST_THRESHOLD)
+    return relative_error(film, moment) >= min(threshold, MAX_THRESHOLD)
         || possible_loss(film, brightest) >= min(threshold, MAX_LOSS);
 }
 

@@ -43,7 +43,7 @@ impl SceneBuffers {
                 what: "the list of shapes and the nodes of their tree",
                 unit: "records",
                 wanted: scene.records.len() as u64,
-                most: MAX_RECORDS as u64,
+                max: MAX_RECORDS as u64,
                 limit: "of thinlens itself".into(),
                 advice: "use fewer shapes",
             });

@@ -17,7 +17,7 @@ const REACH: usize = 24;
 const SHORT_ROUNDS: usize = 2;
 
 /// If fewer than one box in so many would merge in a round, all boxes are merged with a neighbour instead.
-const LEAST_MERGES: usize = 16;
+const BOXES_PER_MERGE: usize = 16;
 
 /// The shares of the nodes that are moved, in the first and in the last rounds.
 const MOVES: [f32; 2] = [0.2, 0.4];
@@ -47,7 +47,7 @@ fn cluster(bounds: &[Bounds], order: &[u32]) -> Bvh2 {
         let partners = partners(nodes, if round < SHORT_ROUNDS { 1 } else { REACH });
         let merges = |(index, partner): (usize, &usize)| *partner > index && partners[*partner] == index;
         let count = partners.iter().enumerate().filter(|pair| merges(*pair)).count();
-        if count * LEAST_MERGES < nodes.len() { adjacent(nodes.len()) } else { partners }
+        if count * BOXES_PER_MERGE < nodes.len() { adjacent(nodes.len()) } else { partners }
     })
 }
 

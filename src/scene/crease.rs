@@ -42,13 +42,13 @@ pub(super) fn crease_normals(triangles: &[[DVec3; 3]]) -> Vec<[Vec3; 3]> {
     let crowded = (0..vertex_count).filter(|vertex| around(*vertex).len() > FEW);
     let trees: HashMap<usize, Tree> =
         crowded.map(|vertex| (vertex, Tree::new(around(vertex).copied().collect()))).collect();
-    let least_cosine = CREASE_DEGREES.to_radians().cos();
+    let min_cosine = CREASE_DEGREES.to_radians().cos();
     let corner_normal = |own: Vec3, vertex: u32| {
         let vertex = vertex as usize;
         let sum = if around(vertex).len() > FEW {
-            trees[&vertex].sum(own, least_cosine)
+            trees[&vertex].sum(own, min_cosine)
         } else {
-            sum(around(vertex).filter(|near| near.normal.dot(own) >= least_cosine))
+            sum(around(vertex).filter(|near| near.normal.dot(own) >= min_cosine))
         };
         sum.try_normalize().unwrap_or(own)
     };
@@ -122,7 +122,7 @@ impl Tree {
     }
 
     /// The sum of the normals whose cosine with a direction is at least so much.
-    fn sum(&self, direction: Vec3, least_cosine: f32) -> Vec3 {
+    fn sum(&self, direction: Vec3, min_cosine: f32) -> Vec3 {
         let positive = direction.cmpge(Vec3::ZERO);
         let mut total = Vec3::ZERO;
         // The ranges that are still to be visited: where each starts and ends, and its index.
@@ -132,16 +132,16 @@ impl Tree {
             // All cosines are rounded alike, so that of a normal in the box lies between those of two of the box's corners.
             let nearest = Vec3::select(positive, range.upper, range.lower).dot(direction);
             let farthest = Vec3::select(positive, range.lower, range.upper).dot(direction);
-            if farthest >= least_cosine {
+            if farthest >= min_cosine {
                 total += range.sum;
-            } else if nearest >= least_cosine {
+            } else if nearest >= min_cosine {
                 if range.inside > 0 {
                     let half = start + (end - start) / 2;
                     left.push((half, end, index + 2 + self.ranges[index + 1].inside));
                     left.push((start, half, index + 1));
                 } else {
                     let near = self.normals[start..end].iter();
-                    total += sum(near.filter(|near| near.normal.dot(direction) >= least_cosine));
+                    total += sum(near.filter(|near| near.normal.dot(direction) >= min_cosine));
                 }
             }
         }

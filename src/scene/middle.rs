@@ -4,7 +4,7 @@ use super::Scene;
 use glam::DVec3;
 
 /// Coordinates up to this many times as large as the scene are not moved. They lose three bits of f32 at most.
-const LARGEST_SHARE: f64 = 8.0;
+const MAX_RATIO: f64 = 8.0;
 
 /// A point near the middle of the shapes. Relative to it, the coordinates of the shapes are about as small as their
 /// distances from each other. It is zero if they are that small already. It is rounded, so that numbers with few digits
@@ -23,7 +23,7 @@ pub(super) fn of(scene: &Scene) -> DVec3 {
             |[lower, upper]: &[DVec3; 2]| (middle - lower).abs().max((upper - middle).abs()).max_element();
         (middle, median(bounds.iter().map(farthest)))
     };
-    let step = (LARGEST_SHARE * size).log2().ceil().exp2();
+    let step = (MAX_RATIO * size).log2().ceil().exp2();
     (middle / step).round() * step
 }
 

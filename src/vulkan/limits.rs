@@ -99,24 +99,24 @@ struct Limit {
 }
 
 impl Limit {
-    fn check(self, what: &'static str, wanted: u64, most: u64) -> Result<()> {
+    fn check(self, what: &'static str, wanted: u64, max: u64) -> Result<()> {
         let Self { unit, name, advice } = self;
-        if wanted <= most {
+        if wanted <= max {
             return Ok(());
         }
-        Err(Error::Limit { what, unit, wanted, most, limit: format!("{name} of the device"), advice })
+        Err(Error::Limit { what, unit, wanted, max, limit: format!("{name} of the device"), advice })
     }
 }
 
 /// Why a device whose limits are these cannot run the shaders.
 pub(super) fn why_too_small(limits: &vk::PhysicalDeviceLimits) -> Option<String> {
     NEEDED.into_iter().find_map(|(kind, needed)| {
-        let (most, what) = match kind {
+        let (max, what) = match kind {
             ResourceKind::Buffer => (limits.max_per_stage_descriptor_storage_buffers, "storage buffers"),
             ResourceKind::Image => (limits.max_per_stage_descriptor_storage_images, "storage images"),
             ResourceKind::Texels => (limits.max_per_stage_descriptor_sampled_images, "texel buffers"),
         };
-        (most < needed).then(|| format!("a shader can bind {most} {what}, needs {needed}"))
+        (max < needed).then(|| format!("a shader can bind {max} {what}, needs {needed}"))
     })
 }
 

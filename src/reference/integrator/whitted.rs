@@ -11,26 +11,26 @@ use glam::DVec3;
 
 /// A secondary ray ignores hits that are nearer than this, relative to the coordinates of its origin. It is the
 /// rounding error of f64 with room to spare.
-const LEAST_DISTANCE: f64 = 1e-10;
+const MIN_DISTANCE: f64 = 1e-10;
 
 /// The radiance that arrives along `ray`, with at most `bounces` reflections.
 pub fn radiance(scene: &Scene, ray: Ray, bounces: u32) -> DVec3 {
     radiance_beyond(scene, ray, 0.0, bounces)
 }
 
-fn radiance_beyond(scene: &Scene, ray: Ray, least: f64, bounces: u32) -> DVec3 {
-    let Some(hit) = intersect(scene, ray, least) else {
+fn radiance_beyond(scene: &Scene, ray: Ray, min_distance: f64, bounces: u32) -> DVec3 {
+    let Some(hit) = intersect(scene, ray, min_distance) else {
         return background(scene, ray.direction);
     };
     let material = &scene.materials[hit.material as usize];
     let surface = Surface::new(&ray, &hit);
-    let least = LEAST_DISTANCE * surface.position.abs().max_element().max(hit.distance);
-    let mut sum = emitted_and_reflected(scene, material, &surface, &ray, least);
+    let min_distance = MIN_DISTANCE * surface.position.abs().max_element().max(hit.distance);
+    let mut sum = emitted_and_reflected(scene, material, &surface, &ray, min_distance);
     if let Some((direction, weight)) = kind_of(material).sample(&surface, ray.direction)
         && bounces > 0
     {
         let mirrored = Ray { origin: surface.position, direction, time: ray.time };
-        sum += weight * radiance_beyond(scene, mirrored, least, bounces - 1);
+        sum += weight * radiance_beyond(scene, mirrored, min_distance, bounces - 1);
     }
     sum
 }
@@ -40,7 +40,7 @@ fn emitted_and_reflected(
     material: &Material,
     surface: &Surface,
     ray: &Ray,
-    least: f64,
+    min_distance: f64,
 ) -> DVec3 {
     let material = kind_of(material);
     let mut sum = material.emission() + material.ambient(surface) * scene.ambient.as_dvec3();
@@ -50,7 +50,7 @@ fn emitted_and_reflected(
         let behind = surface.normal.dot(to_light) <= 0.0;
         let shadow_ray = Ray { origin: surface.position, direction: to_light, time: ray.time };
         let in_shadow = || {
-            let blocker = intersect(scene, shadow_ray, least);
+            let blocker = intersect(scene, shadow_ray, min_distance);
             light.shadows && blocker.is_some_and(|hit| hit.distance < light_distance)
         };
         if cosine > 0.0 && !behind && !in_shadow() {
