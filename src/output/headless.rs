@@ -34,7 +34,6 @@ pub struct Job {
 /// # Errors
 /// Those of rendering and of writing, and [`Error::Validation`] if the layer had something to say.
 pub fn render(job: &Job) -> Result<()> {
-    job.settings.check()?;
     let format = PictureFormat::of(&job.output).ok_or_else(|| Error::UnknownFormat(job.output.clone()))?;
     let files = job.settings.files();
     let mut outputs = vec![("--output", job.output.as_path())];

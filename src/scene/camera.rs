@@ -1,6 +1,7 @@
 //! The camera, its thin lens, and its hole.
 
 use glam::{DMat3, DVec3};
+use std::fmt::Display;
 
 /// The position, the direction and the field of view of the camera. Lengths are in scene units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -96,20 +97,22 @@ impl Camera {
 
     /// Whether the camera has a frame.
     pub fn has_frame(&self) -> bool {
-        self.validate(["", "", ""]).is_ok()
+        self.validate(|| [""; 3]).is_ok()
     }
 
-    /// Checks that these values give a frame. The names are what the user calls the two points and the direction.
+    /// Checks that these values give a frame. `names` gives what the user calls the two points and the direction.
     ///
     /// # Errors
     /// The reason why they give none.
-    pub fn validate(&self, [eye, look_at, up]: [&str; 3]) -> Result<(), String> {
+    pub fn validate<N: Display>(&self, names: impl FnOnce() -> [N; 3]) -> Result<(), String> {
         let axis = self.eye - self.look_at;
         if axis.length_squared() == 0.0 {
+            let [eye, look_at, _] = names();
             return Err(format!("{eye} and {look_at} are the same point"));
         }
         let across = self.up.cross(axis.normalize()).length();
         if across <= 1e-9 * self.up.length() || self.up == DVec3::ZERO {
+            let [_, _, up] = names();
             return Err(format!("{up} points along the line of sight; choose another direction for it"));
         }
         Ok(())

@@ -293,12 +293,10 @@ impl Settings {
             return out_of_range("the error is not known where no moments are kept".into());
         }
         let names = |flags: [&str; 3]| flags.map(|flag| list::setting(flag).name(called));
-        let [eye, look_at, up] = &names(["eye", "look-at", "up"]);
         camera
-            .validate([eye, look_at, up])
+            .validate(|| names(["eye", "look-at", "up"]))
             .or_else(|reason| out_of_range(format!("the camera has no view: {reason}")))?;
-        let [blades, cats_eye, image] = &names(["blades", "cats-eye", "aperture-image"]);
-        aperture.validate([blades, cats_eye, image]).or_else(out_of_range)?;
+        aperture.validate(|| names(["blades", "cats-eye", "aperture-image"])).or_else(out_of_range)?;
         // With a wide jitter, chance may land more samples than this in a pixel. 2^16 is 16 standard deviations, which
         // never happens.
         let most = if *jitter > DEFAULT_JITTER { MAX_SAMPLES - (1 << 16) } else { MAX_SAMPLES };

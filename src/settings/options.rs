@@ -40,7 +40,10 @@ impl Changes {
     /// [`crate::error::Error::OutOfRange`], or the errors of reading an image.
     pub fn apply(&self, settings: &mut Settings) -> Result<()> {
         for (setting, value) in &self.0 {
-            setting.check(value, Called::Flag)?;
+            // The check of all settings looks at own values alone, and an alias has none.
+            if setting.is_alias() {
+                setting.check(value, Called::Flag)?;
+            }
             setting.set(settings, value)?;
         }
         settings.check()

@@ -10,6 +10,7 @@ mod image;
 pub use image::Mask;
 
 use super::CameraModel;
+use std::fmt::Display;
 
 /// Calls a macro with the list of all kinds. An entry has the name of the kind, its type and its file.
 macro_rules! aperture_kinds {
@@ -76,13 +77,14 @@ impl Default for Aperture {
 }
 
 impl Aperture {
-    /// Checks that at most one shape is chosen. The names are what the user calls blades, cat's eye and image.
+    /// Checks that at most one shape is chosen. `names` gives what the user calls blades, cat's eye and image.
     ///
     /// # Errors
     /// The reason why these values describe no aperture.
-    pub fn validate(&self, [blades, cats_eye, image]: [&str; 3]) -> Result<(), String> {
+    pub fn validate<N: Display>(&self, names: impl FnOnce() -> [N; 3]) -> Result<(), String> {
         let shapes = [self.blades != 0, self.cats_eye != 0.0, self.image.is_some()];
         if shapes.into_iter().filter(|chosen| *chosen).count() > 1 {
+            let [blades, cats_eye, image] = names();
             return Err(format!("{blades}, {cats_eye} and {image} are shapes of their own; choose one"));
         }
         Ok(())

@@ -93,7 +93,7 @@ impl Shot {
         in_range(camera.vfov_radians.to_degrees(), VFOV_DEGREES).map_err(|wrong| {
             ParseError::at(span, &format!("the vertical field of view in degrees {wrong}"))
         })?;
-        camera.validate(["eye", "look_at", "up"]).map_err(|message| ParseError::at(span, &message))?;
+        camera.validate(|| ["eye", "look_at", "up"]).map_err(|message| ParseError::at(span, &message))?;
         if let Some(name) = &table.model {
             model = named(&CameraModel::NAMES, name, "camera model")?;
         }
@@ -161,7 +161,7 @@ fn aperture(span: &Spanned<CameraTable>, folder: &Path) -> Result<Aperture, Pars
         image: table.aperture_image.as_ref().map(read).transpose()?,
     };
     aperture
-        .validate(["blades", "cats_eye", "aperture_image"])
+        .validate(|| ["blades", "cats_eye", "aperture_image"])
         .map_err(|message| ParseError::at(span, &message))?;
     Ok(aperture)
 }
