@@ -8,6 +8,8 @@ mod adaptive;
 mod agreement;
 #[path = "film.rs"]
 mod film;
+#[path = "keys.rs"]
+mod keys;
 #[path = "mesh_picture.rs"]
 mod mesh_picture;
 #[path = "motion.rs"]
