@@ -40,6 +40,31 @@ fn sheet(folder: &Path, side: u32) -> PathBuf {
     path
 }
 
+/// A viewer of a mesh that takes long to prepare, because no compiled passes are kept yet.
+fn cold_viewer(folder: &Path) -> Viewer {
+    sheet(folder, 500);
+    let cache = folder.to_str().expect("a plain path");
+    let arguments = ["sheet.obj", "--size", "640x480", "--validation", "-n", "2"];
+    Viewer::start_with(folder, SIZE, &arguments, &[("XDG_CACHE_HOME", cache)])
+}
+
+/// Catches a window that comes only with its first picture, and changes that are lost in the meantime.
+#[test]
+fn the_panel_comes_before_the_picture() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let viewer = cold_viewer(folder.path());
+    // The panel is there. The passes are compiled after the tree of the mesh is built.
+    viewer.frames_until(&format!("{} trace", telemetry::COMPILING));
+    let before = viewer.state.borrow()[0];
+    viewer.drag("Lens diameter", &[0.5, 0.4, 0.3], |viewer| viewer.state.borrow()[0] != before);
+    viewer.wait_until_done();
+    let diameter = viewer.state.borrow()[0].to_string();
+    let mesh = folder.path().join("sheet.obj");
+    let mesh = mesh.to_str().expect("a plain path");
+    viewer.expect_picture("the picture", 0, &[mesh, "-n", "2", "--lens-diameter", &diameter]);
+    viewer.close();
+}
+
 /// Catches a window that stands still while a mesh is loaded: until it is shown, frames come and the camera follows
 /// the hand. And one that shows the mesh under the last scene's camera.
 #[test]
@@ -156,7 +181,9 @@ fn the_shutter_compiles_nothing() {
 fn a_lost_device_is_opened_again() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let arguments = ["suffern-boxes", "--size", "640x480", "--validation", "-n", "40"];
-    let viewer = Viewer::start_with(folder.path(), SIZE, &arguments, &[(LOSE_AT, "30")]);
+    let viewer = Viewer::start_with(folder.path(), SIZE, &arguments, &[(LOSE_AT, "60")]);
+    // Before there is a picture, the frames have no passes.
+    viewer.wait_for("a picture", |viewer| viewer.shown.borrow().0 > 0);
     let lost = |viewer: &Viewer| {
         let message = viewer.message.borrow();
         message.contains("lost while it ran") && message.contains("open again")

@@ -1,7 +1,6 @@
 //! The parts of the window that use Vulkan: a swapchain that is replaced as the window changes, frames in flight, and
 //! imgui's renderer.
 
-use super::loader::Loader;
 use crate::error::{Error, Result};
 use crate::output;
 use crate::renderer::{Pace, Picked, Prepared, Progress, Question, Renderer};
@@ -12,7 +11,6 @@ use crate::vulkan::{
 use imgui_rs_vulkan_renderer::{DynamicRendering, Options};
 use std::path::Path;
 use std::sync::Arc;
-use winit::event_loop::EventLoopProxy;
 use winit::window::Window;
 
 /// The answer to a question of [`Graphics::draw`]. It holds `None` if the scene has changed since the question.
@@ -25,29 +23,22 @@ pub(super) struct Graphics {
     swapchain: Option<Swapchain>,
     /// The picture that is held for comparison.
     held: Option<Image>,
-    renderer: Renderer,
+    /// `None` until the loader has made it.
+    renderer: Option<Renderer>,
     frames: [Commands; FRAMES_IN_FLIGHT],
     next_frame: usize,
     /// For each frame in flight, whether it has a question to answer.
     asked: [bool; FRAMES_IN_FLIGHT],
-    pub(super) loader: Loader,
     surface: Arc<Surface>,
     choice: DeviceChoice,
-    waker: EventLoopProxy<()>,
     device: Arc<Device>,
     window: Arc<Window>,
 }
 
 impl Graphics {
-    pub(super) fn new(
-        window: &Arc<Window>,
-        instance: &Arc<Instance>,
-        choice: &DeviceChoice,
-        waker: &EventLoopProxy<()>,
-        settings: &Settings,
-    ) -> Result<Self> {
+    pub(super) fn new(window: &Arc<Window>, instance: &Arc<Instance>, choice: &DeviceChoice) -> Result<Self> {
         let surface = Surface::new(instance, window)?;
-        Self::on(instance, window, &surface, choice, waker, settings)
+        Self::on(instance, window, &surface, choice)
     }
 
     fn on(
@@ -55,32 +46,41 @@ impl Graphics {
         window: &Arc<Window>,
         surface: &Arc<Surface>,
         choice: &DeviceChoice,
-        waker: &EventLoopProxy<()>,
-        settings: &Settings,
     ) -> Result<Self> {
         let device = Device::open(instance, choice.device.as_deref(), Some(surface))?;
         device.keep_pipelines();
-        let renderer = Renderer::new(&device, settings)?;
         Ok(Self {
             overlay: None,
             swapchain: None,
             held: None,
-            loader: Loader::new(renderer.preparer(), renderer.prepared().clone(), waker.clone()),
-            renderer,
+            renderer: None,
             frames: [Commands::new(&device)?, Commands::new(&device)?],
             next_frame: 0,
             asked: [false; FRAMES_IN_FLIGHT],
             surface: Arc::clone(surface),
             choice: choice.clone(),
-            waker: waker.clone(),
             device,
             window: Arc::clone(window),
         })
     }
 
     /// Opens the device again, and makes everything anew on it.
-    pub(super) fn reopen(&self, settings: &Settings) -> Result<Self> {
-        Self::on(self.device.instance(), &self.window, &self.surface, &self.choice, &self.waker, settings)
+    pub(super) fn reopen(&self) -> Result<Self> {
+        Self::on(self.device.instance(), &self.window, &self.surface, &self.choice)
+    }
+
+    pub(super) fn device(&self) -> &Arc<Device> {
+        &self.device
+    }
+
+    /// Shows the pictures of this renderer from now on.
+    pub(super) fn start(&mut self, renderer: Renderer) {
+        self.renderer = Some(renderer);
+    }
+
+    /// Whether there is a renderer.
+    pub(super) fn has_started(&self) -> bool {
+        self.renderer.is_some()
     }
 
     pub(super) fn device_name(&self) -> &str {
@@ -93,11 +93,12 @@ impl Graphics {
     }
 
     pub(super) fn progress(&self) -> Progress {
-        self.renderer.progress()
+        self.renderer.as_ref().map(Renderer::progress).unwrap_or_default()
     }
 
+    /// Whether there is nothing more to trace at the moment.
     pub(super) fn finished(&self) -> bool {
-        self.renderer.finished()
+        self.renderer.as_ref().is_none_or(Renderer::finished)
     }
 
     /// Makes the swapchain fit the window and imgui's renderer fit the fonts. Returns the size to render at, or `None`
@@ -112,7 +113,6 @@ impl Graphics {
             return Ok(None);
         };
         let extent = swapchain.extent();
-        self.renderer.set_blue_first(swapchain.blue_first());
         if self.overlay.is_none() {
             // It uploads the fonts when it is made.
             let (device, queue, allocator) = self.device.raw_parts();
@@ -140,48 +140,48 @@ impl Graphics {
         self.swapchain = None;
     }
 
-    /// Renders these settings from now on, if what they need is ready. Otherwise another thread prepares it, and this
-    /// returns false.
+    /// Renders these settings from now on, if what they need is ready. Otherwise this returns false.
     pub(super) fn set(&mut self, settings: &Settings) -> Result<bool> {
-        settings.check()?;
-        // The first picture should not wait for the passes that answer questions.
-        let answers = self.renderer.prepared().answers() || self.renderer.progress().samples > 0;
-        let ready = self.renderer.prepared().fits(settings, answers);
-        if ready {
-            self.renderer.set(settings)?;
-        } else {
-            self.loader.prepare(settings);
+        if let Some(renderer) = &mut self.renderer {
+            // The first picture should not wait for the passes that answer questions.
+            let answers = renderer.prepared().answers() || renderer.progress().samples > 0;
+            if renderer.prepared().fits(settings, answers) {
+                return renderer.set(settings).map(|()| true);
+            }
         }
-        Ok(ready)
+        settings.check().map(|()| false)
     }
 
     /// Renders these settings from now on, with parts that were prepared for them.
     pub(super) fn set_prepared(&mut self, settings: &Settings, prepared: &Prepared) -> Result<()> {
-        self.renderer.set_prepared(settings, prepared)
+        self.renderer.as_mut().map_or(Ok(()), |renderer| renderer.set_prepared(settings, prepared))
     }
 
     /// Continues to render these settings, which may differ from the current ones in the size alone.
     pub(super) fn go_on(&mut self, shown: &Settings) -> Result<()> {
-        self.renderer.set(shown)
+        self.renderer.as_mut().map_or(Ok(()), |renderer| renderer.set(shown))
     }
 
     /// Whether the renderer can answer questions.
     pub(super) fn answers(&self) -> bool {
-        self.renderer.prepared().answers()
+        self.renderer.as_ref().is_some_and(|renderer| renderer.prepared().answers())
     }
 
     /// Holds the picture as it is now, for comparison.
     pub(super) fn hold(&mut self) -> Result<()> {
         self.device.wait_idle()?;
-        self.held = Some(self.renderer.hold_picture()?);
+        self.held = self.renderer.as_mut().map(Renderer::hold_picture).transpose()?;
         Ok(())
     }
 
-    /// Saves the picture as it is now, with the samples that it has so far.
+    /// Saves the picture as it is now, if there is one, with the samples that it has so far.
     pub(super) fn save(&mut self, settings: &Settings, path: &Path) -> Result<()> {
+        let Some(renderer) = &mut self.renderer else {
+            return Ok(());
+        };
         self.device.wait_idle()?;
-        let saved = output::save(&mut self.renderer, settings, path);
-        self.renderer.set(settings)?;
+        let saved = output::save(renderer, settings, path);
+        renderer.set(settings)?;
         saved
     }
 
@@ -207,9 +207,12 @@ impl Graphics {
             frame.wait()?;
         }
         self.frames[self.next_frame].wait()?;
-        self.renderer.collect(self.next_frame)?;
+        let Some(renderer) = &mut self.renderer else {
+            return Ok(None);
+        };
+        renderer.collect(self.next_frame)?;
         let asked = std::mem::take(&mut self.asked[self.next_frame]);
-        Ok(asked.then(|| Answer(self.renderer.picked(self.next_frame))))
+        Ok(asked.then(|| Answer(renderer.picked(self.next_frame))))
     }
 
     /// The next image to draw to. `None` if the window has changed or is hidden.
@@ -245,16 +248,20 @@ impl Graphics {
         let frame = self.next_frame;
         self.next_frame = (frame + 1) % FRAMES_IN_FLIGHT;
         let mut recording = self.frames[frame].begin()?;
-        if let Some(pace) = pace.filter(|_| !self.renderer.finished()) {
-            self.renderer.record(&mut recording, frame, pace);
-        }
-        self.renderer.record_resolve(&mut recording);
-        if let Some(question) = question {
-            self.asked[frame] = self.renderer.record_pick(&mut recording, frame, question);
+        if let Some(renderer) = &mut self.renderer {
+            renderer.set_blue_first(swapchain.blue_first());
+            if let Some(pace) = pace.filter(|_| !renderer.finished()) {
+                renderer.record(&mut recording, frame, pace);
+            }
+            renderer.record_resolve(&mut recording);
+            if let Some(question) = question {
+                self.asked[frame] = renderer.record_pick(&mut recording, frame, question);
+            }
         }
 
         let left = self.held.as_ref().map(|held| (held, split));
-        swapchain.begin_drawing(&mut recording, image, self.renderer.picture(), left);
+        let picture = self.renderer.as_ref().map(Renderer::picture);
+        swapchain.begin_drawing(&mut recording, image, picture, left);
         if let Some(overlay) = &mut self.overlay {
             overlay.cmd_draw(recording.raw(), panel).map_err(overlay_error)?;
         }

@@ -1,10 +1,11 @@
-//! A thread for slow work: it reads files, builds trees, uploads them and compiles passes, while the window continues
-//! with what it has.
+//! A thread for slow work: it makes the renderer, reads files, builds trees, uploads them and compiles passes, while the
+//! window continues with what it has.
 
 use super::panel::Content;
 use crate::error::Result;
-use crate::renderer::{Keys, Prepared, Preparer};
+use crate::renderer::{Keys, Prepared, Preparer, Renderer};
 use crate::settings::Settings;
+use crate::vulkan::Device;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -17,6 +18,7 @@ pub(super) struct Loader {
     /// `None` once the thread is to end.
     requests: Option<Sender<Request>>,
     answers: Receiver<Answer>,
+    renderer: Receiver<Result<Renderer>>,
     thread: Option<JoinHandle<()>>,
     /// The file or scene that is being opened.
     loading: Option<PathBuf>,
@@ -45,23 +47,36 @@ pub(super) enum Ready {
 }
 
 impl Loader {
-    /// Starts the thread. New parts share what they can with `prepared`. `waker` is notified whenever something is
+    /// Starts the thread, which first makes a renderer for these settings. `waker` is notified whenever something is
     /// ready.
-    pub(super) fn new(preparer: Arc<Preparer>, prepared: Prepared, waker: EventLoopProxy<()>) -> Self {
+    pub(super) fn new(device: &Arc<Device>, settings: &Settings, waker: EventLoopProxy<()>) -> Self {
         let (requests, incoming) = channel();
         let (done, answers) = channel();
+        let (made, renderer) = channel();
         let newest = Arc::new(AtomicU64::new(0));
-        let answer = move |answer| {
-            // Both fail only when the window has closed, and then nobody needs the answer.
-            let _ = done.send(answer);
+        // Sending fails only when the window has closed, and then nobody needs the answer.
+        let wake = move || {
             let _ = waker.send_event(());
         };
-        let mut worker = Worker { preparer, last: prepared, newest: Arc::clone(&newest), answer };
-        let thread = std::thread::spawn(move || while worker.work(&incoming) {});
+        let (device, settings, of_worker) = (Arc::clone(device), settings.clone(), Arc::clone(&newest));
+        let work = move || {
+            let renderer = Renderer::new(&device, &settings);
+            let parts = renderer.as_ref().ok().map(|made| (made.preparer(), made.prepared().clone()));
+            let _ = made.send(renderer);
+            wake();
+            let Some((preparer, last)) = parts else { return };
+            let answer = move |answer| {
+                let _ = done.send(answer);
+                wake();
+            };
+            let mut worker = Worker { preparer, last, newest: of_worker, answer };
+            while worker.work(&incoming) {}
+        };
         Self {
             requests: Some(requests),
             answers,
-            thread: Some(thread),
+            renderer,
+            thread: Some(std::thread::spawn(work)),
             loading: None,
             preparing: None,
             newest,
@@ -87,6 +102,11 @@ impl Loader {
     fn ask(&self, request: Request) {
         // Sending fails only when the thread has ended, which it does when the loader is dropped.
         let _ = self.requests.as_ref().map(|requests| requests.send(request));
+    }
+
+    /// The renderer, once it is made. Nothing else is ready before.
+    pub(super) fn renderer(&self) -> Option<Result<Renderer>> {
+        self.renderer.try_recv().ok()
     }
 
     /// The name of what is being opened.

@@ -157,12 +157,12 @@ impl Swapchain {
     }
 
     /// Copies `picture` to the acquired image, or another one to its left part, and opens it for drawing on
-    /// top. The sizes are the same.
+    /// top. The sizes are the same. Without a picture the image is black.
     pub fn begin_drawing(
         &self,
         recording: &mut Recording<'_>,
         image: &AcquiredImage,
-        picture: &Image,
+        picture: Option<&Image>,
         left: Option<(&Image, u32)>,
     ) {
         let raw = self.images[image.index as usize];
@@ -199,12 +199,16 @@ impl Swapchain {
         if let Some((other, split)) = left {
             copy(other, 0, split);
         }
-        copy(picture, split, self.extent[0]);
+        if let Some(picture) = picture {
+            copy(picture, split, self.extent[0]);
+        }
         transition(recording, raw, dst, transfer, color, attachment);
+        let load_op =
+            if picture.is_some() { vk::AttachmentLoadOp::LOAD } else { vk::AttachmentLoadOp::CLEAR };
         let target = [vk::RenderingAttachmentInfo::default()
             .image_view(self.views[image.index as usize])
             .image_layout(color)
-            .load_op(vk::AttachmentLoadOp::LOAD)
+            .load_op(load_op)
             .store_op(vk::AttachmentStoreOp::STORE)];
         let [width, height] = self.extent;
         let rendering = vk::RenderingInfo::default()

@@ -1,7 +1,7 @@
 //! What happens in a frame of the viewer: input, the renderer's settings, and drawing.
 
 use super::super::graphics::Answer;
-use super::super::loader::Ready;
+use super::super::loader::{Loader, Ready};
 use super::super::ui::{Action, Status};
 use super::super::{keys, telemetry};
 use super::{FRAMES_AFTER_EVENT, OpenWindow};
@@ -10,6 +10,7 @@ use crate::renderer::Pace;
 use crate::vulkan::AcquiredImage;
 use std::path::Path;
 use std::time::{Duration, Instant};
+use winit::event_loop::EventLoopProxy;
 
 /// Tracing time per frame while a control is held. It is short so that the picture follows the pointer: an event waits
 /// for the frame that is being drawn and then for the frame that shows it.
@@ -67,13 +68,17 @@ impl OpenWindow {
     fn interact(&mut self, size: [u32; 2]) -> Option<Action> {
         let ui = self.imgui.new_frame();
         ui.dockspace_over_main_viewport();
-        let loader = &self.graphics.loader;
+        let preparing = (!self.graphics.has_started()).then(|| "preparing ...".into());
         let status = Status {
             progress: self.graphics.progress(),
             device: self.graphics.device_name(),
             picked: self.focus.under_pointer(),
             diagram: self.focus.diagram(),
-            loading: loader.loading().map(|name| format!("loading {} ...", name.display())),
+            loading: self
+                .loader
+                .loading()
+                .map(|name| format!("loading {} ...", name.display()))
+                .or(preparing),
         };
         let modifiers = self.modifiers.take(ui);
         let action = self.panel.draw(ui, &status).or_else(|| keys::pressed(ui, modifiers));
@@ -116,9 +121,12 @@ impl OpenWindow {
         }
         if let Some(name) = self.panel.to_open.take() {
             log::debug!("{} {}", telemetry::LOADING, name.display());
-            self.graphics.loader.open(&name, &self.panel.settings);
+            self.loader.open(&name, &self.panel.settings);
         }
         self.panel.settings.estimator.size = size;
+        if let Some(renderer) = self.loader.renderer() {
+            self.graphics.start(renderer?);
+        }
         let mut set = self.take_ready(size);
         if let Ok(false) = set {
             set = self.graphics.set(&self.panel.settings);
@@ -131,8 +139,13 @@ impl OpenWindow {
                 }
                 return Ok(());
             }
-            // Another thread is preparing what the settings need.
-            Ok(false) => self.panel.accepted.settings.estimator.size = size,
+            // The loader prepares what the settings need.
+            Ok(false) => {
+                self.panel.accepted.settings.estimator.size = size;
+                if self.graphics.has_started() {
+                    self.loader.prepare(&self.panel.settings);
+                }
+            }
             Err(error @ Error::DeviceLost { .. }) => return Err(error),
             // For example, a scene that is too large for the device. The renderer keeps what it had.
             Err(error) => self.panel.refuse(&error),
@@ -142,7 +155,7 @@ impl OpenWindow {
 
     /// Shows what the other thread has prepared. Returns whether the renderer uses it now.
     fn take_ready(&mut self, size: [u32; 2]) -> Result<bool> {
-        let prepared = match self.graphics.loader.next() {
+        let prepared = match self.loader.next() {
             None => return Ok(false),
             Some(Ready::Prepared(prepared)) => prepared?,
             Some(Ready::Opened { name, opened: Ok(opened) }) => {
@@ -189,13 +202,14 @@ impl OpenWindow {
     }
 
     /// Opens the device again after it was lost, and continues with the settings that were shown.
-    pub(super) fn reopen(&mut self, error: Error) -> Result<()> {
+    pub(super) fn reopen(&mut self, error: Error, waker: &EventLoopProxy<()>) -> Result<()> {
         self.losses += 1;
         if self.losses > MAX_LOSSES {
             return Err(error);
         }
         log::warn!("{error}");
-        self.graphics = self.graphics.reopen(self.panel.shown())?;
+        self.graphics = self.graphics.reopen()?;
+        self.loader = Loader::new(self.graphics.device(), self.panel.shown(), waker.clone());
         self.focus.forget();
         self.panel.held = None;
         self.panel.say(format!("{error}. It is open again."));
@@ -210,6 +224,9 @@ impl OpenWindow {
             self.history.record(&self.panel.state());
         }
         match action {
+            Action::Compare | Action::SavePicture if !self.graphics.has_started() => {
+                self.panel.say("there is no picture yet".into());
+            }
             Action::Autofocus => {
                 self.focus.send_to(self.panel.settings.estimator.size.map(|extent| 0.5 * extent as f32));
             }

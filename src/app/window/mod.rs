@@ -8,6 +8,7 @@ use super::focus::Focus;
 use super::graphics::Graphics;
 use super::history::History;
 use super::keys::Modifiers;
+use super::loader::Loader;
 use super::memory;
 use super::navigate::Navigate;
 use super::panel::{Panel, State};
@@ -68,6 +69,7 @@ struct OpenWindow {
     /// Whether a control was held, or the camera or the focal plane was moving, in the last frame.
     dragging: bool,
     telemetry: Telemetry,
+    loader: Loader,
     /// The number of times that the device was lost.
     losses: u32,
     occluded: bool,
@@ -116,7 +118,7 @@ impl ApplicationHandler for Viewer {
             WindowEvent::CloseRequested => event_loop.exit(),
             WindowEvent::RedrawRequested => {
                 let drawn = match open.frame() {
-                    Err(error @ Error::DeviceLost { .. }) => open.reopen(error),
+                    Err(error @ Error::DeviceLost { .. }) => open.reopen(error, &self.waker),
                     drawn => drawn,
                 };
                 if let Err(error) = drawn {
@@ -164,7 +166,7 @@ impl ApplicationHandler for Viewer {
         if busy {
             open.window.request_redraw();
         }
-        let idle = !busy && !open.graphics.loader.is_busy();
+        let idle = !busy && open.graphics.has_started() && !open.loader.is_busy();
         if idle && !open.idle {
             log::trace!("{}", telemetry::IDLE);
         }
@@ -226,7 +228,8 @@ impl OpenWindow {
         let mut panel = Panel::new(options);
         let size = window.inner_size();
         panel.settings.estimator.size = [size.width, size.height].map(|extent| extent.clamp(1, MAX_EXTENT));
-        let graphics = Graphics::new(&window, instance, &options.device, waker, &panel.settings)?;
+        let graphics = Graphics::new(&window, instance, &options.device)?;
+        let loader = Loader::new(graphics.device(), &panel.settings, waker.clone());
 
         let mut imgui = imgui::Context::create();
         imgui.set_ini_filename(memory::file("windows.ini"));
@@ -255,6 +258,7 @@ impl OpenWindow {
             idle: false,
             dragging: false,
             telemetry: Telemetry::default(),
+            loader,
             losses: 0,
             occluded: false,
         };
