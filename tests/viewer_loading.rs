@@ -65,6 +65,17 @@ fn the_panel_comes_before_the_picture() {
     viewer.close();
 }
 
+/// Catches a window that stays open until the loader has ended its step.
+#[test]
+fn the_window_closes_before_the_loader_ends() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let log = cold_viewer(folder.path()).close();
+    let place = |what: &str| log.iter().position(|line| said(line, what).is_some());
+    let closed = place(telemetry::CLOSED).expect("it closes");
+    let compiles = place(&format!("{} trace", telemetry::COMPILING)).expect("it was still preparing");
+    assert!(closed < compiles, "{log:#?}");
+}
+
 /// Catches a window that stands still while a mesh is loaded: until it is shown, frames come and the camera follows
 /// the hand. And one that shows the mesh under the last scene's camera.
 #[test]

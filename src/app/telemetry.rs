@@ -37,6 +37,8 @@ pub const CAMERA: &str = "camera";
 pub const VIEW: &str = "view";
 /// The samples per pixel of the picture on the screen and their target, separated by a slash, and the picture's size.
 pub const SHOWN: &str = "shown";
+/// The window has closed.
+pub const CLOSED: &str = "closed";
 /// The memory that is allocated on the device: all bytes, then the name and the bytes of each allocation.
 pub const MEMORY: &str = "memory";
 

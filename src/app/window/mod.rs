@@ -45,6 +45,8 @@ pub(super) struct Viewer {
     /// Wakes the event loop from another thread.
     waker: EventLoopProxy<()>,
     open: Option<OpenWindow>,
+    /// The loader of the window that was closed, which may still be busy.
+    closing: Option<Loader>,
     instance: Option<Arc<Instance>>,
     error: Option<Error>,
 }
@@ -77,12 +79,12 @@ struct OpenWindow {
 
 impl Viewer {
     pub(super) fn new(options: Options, waker: EventLoopProxy<()>) -> Self {
-        Self { options, waker, open: None, instance: None, error: None }
+        Self { options, waker, open: None, closing: None, instance: None, error: None }
     }
 
-    /// Closes the window, if it is still open, and returns the error that ended the viewer, if there was one.
+    /// Waits for the loader, and returns the error that ended the viewer, if there was one.
     pub(super) fn finish(self) -> Result<()> {
-        drop(self.open);
+        drop((self.open, self.closing));
         self.error.map_or(Ok(()), Err)?;
         self.instance.map_or(Ok(()), |instance| instance.check_validation())
     }
@@ -183,7 +185,8 @@ impl ApplicationHandler for Viewer {
         if let Some(open) = self.open.as_ref().filter(|_| self.error.is_none()) {
             open.panel.memory().save();
         }
-        self.open = None;
+        // The loader cannot end in the middle of a step. So the window closes before the loader is waited for.
+        self.closing = self.open.take().map(OpenWindow::close);
     }
 }
 
@@ -265,6 +268,15 @@ impl OpenWindow {
         open.load_fonts();
         open.style();
         Ok(open)
+    }
+
+    /// Closes the window, and returns the loader, which may still be busy.
+    fn close(self) -> Loader {
+        self.window.set_visible(false);
+        let Self { graphics, window, loader, .. } = self;
+        drop((graphics, window));
+        log::debug!("{}", telemetry::CLOSED);
+        loader
     }
 
     fn is_hidden(&self) -> bool {

@@ -108,8 +108,8 @@ impl Viewer {
         connection.flush().expect("a connection");
     }
 
-    /// Asks the window to close, as a window manager does, and waits for the end.
-    pub fn close(mut self) {
+    /// Asks the window to close, as a window manager does, waits for the end, and returns the rest of the log.
+    pub fn close(mut self) -> Vec<String> {
         self.tell("WM_PROTOCOLS", [self.atom("WM_DELETE_WINDOW"), 0, 0, 0, 0]);
         let deadline = Instant::now() + PATIENCE;
         let status = loop {
@@ -122,6 +122,7 @@ impl Viewer {
         let log: Vec<String> = self.lines.iter().collect();
         assert!(!log.iter().any(|line| line.contains("validation:")), "{log:#?}");
         assert!(status.success(), "{status}: {log:#?}");
+        log
     }
 }
 
