@@ -241,12 +241,15 @@ fn for_each(name: &str, kinds: &[&str]) -> String {
 }
 
 /// The functions that the file of a kind defines. `sphere_distance` is the function `distance` of the kind `sphere`.
+/// A definition ends its first line with `{`, or with `(` if its parameters are on lines of their own.
 fn functions<'a>(text: &'a str, kind: &str) -> Vec<&'a str> {
     let start = format!("{kind}_");
     let defined = |line: &'a str| {
         let (declared, rest) = line.split_once('(')?;
         let (_, name) = declared.split_once(' ')?;
-        (rest.ends_with('{') && !line.starts_with(' ')).then(|| name.strip_prefix(&start)).flatten()
+        ((rest.ends_with('{') || rest.is_empty()) && !line.starts_with(' '))
+            .then(|| name.strip_prefix(&start))
+            .flatten()
     };
     text.lines().filter_map(defined).collect()
 }

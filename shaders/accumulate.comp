@@ -29,7 +29,7 @@ vec4 film = vec4(0.0);
 float moment = 0.0;
 
 // Merges the batch that was traced for a start pixel.
-void gather(ivec2 start) {
+void gather(const ivec2 start) {
     vec4 batch = imageLoad(traced_image, start);
     if (HAS_MOMENTS == 1u) {
         moment = merge_moments(film, moment, batch, imageLoad(traced_moments, start).r);

@@ -32,7 +32,7 @@ layout(push_constant, std430) uniform PickPush {
 layout(set = 0, binding = BINDING_PICKED_RAYS, std430) writeonly buffer PickedRays { PickedRay picked[]; };
 
 // The point of the lens, whose radius is one, that a ray passes: the centre, or a point of a fan from rim to rim.
-vec2 fan_point(uint ray) {
+vec2 fan_point(const uint ray) {
     if (ray == 0u) {
         return vec2(0.0);
     }

@@ -38,13 +38,13 @@ layout(push_constant, std430) uniform ResolvePush {
 const int SEARCH_RADIUS = 4;
 
 // The texel of the lattice that stands for a cell.
-ivec2 site_of(ivec2 cell) {
+ivec2 site_of(const ivec2 cell) {
     int site_in_cell = push.preview_stride == PREVIEW_STRIDE ? int(PREVIEW_SITE) : 0;
     return cell * int(push.preview_stride) + site_in_cell;
 }
 
 // The texel that a cell shows, or an empty one if that texel lies outside the film.
-vec4 film_at(ivec2 cell) {
+vec4 film_at(const ivec2 cell) {
     ivec2 site = site_of(cell);
     if (site.x < 0 || site.y < 0 || !inside(uvec2(site), push.extent)) {
         return vec4(0.0);
@@ -53,7 +53,7 @@ vec4 film_at(ivec2 cell) {
 }
 
 // The nearest texel with samples, by Euclidean distance, within SEARCH_RADIUS cells, or an empty one if there is none.
-vec4 nearest_sampled(ivec2 cell) {
+vec4 nearest_sampled(const ivec2 cell) {
     vec4 nearest = vec4(0.0);
     int nearest_distance = 2 * SEARCH_RADIUS * SEARCH_RADIUS + 1;
     for (int y = -SEARCH_RADIUS; y <= SEARCH_RADIUS; ++y) {

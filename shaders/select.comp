@@ -33,7 +33,7 @@ const int DILATION = 1;
 shared uint kept_in_group;
 shared uint first_of_group;
 
-bool has_noise_around(ivec2 pixel) {
+bool has_noise_around(const ivec2 pixel) {
     uint columns = (push.lattice.extent.x + push.cell - 1u) / push.cell;
     for (int y = -DILATION; y <= DILATION; ++y) {
         for (int x = -DILATION; x <= DILATION; ++x) {

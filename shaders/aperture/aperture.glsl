@@ -6,7 +6,7 @@
 #include "aperture/kinds.glsl"
 
 // A point of the aperture, and in z the share of the light through it that reaches the film point q.
-vec3 aperture_point(vec2 q, vec2 xi) {
+vec3 aperture_point(const vec2 q, const vec2 xi) {
 #define KIND_POINT(KIND, kind_) \
     if (APERTURE == APERTURE_##KIND) { \
         return kind_##_point(q, xi); \

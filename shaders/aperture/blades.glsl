@@ -7,7 +7,7 @@
 
 #include "aperture/record.glsl"
 
-vec3 blades_point(vec2 q, vec2 xi) {
+vec3 blades_point(const vec2 q, const vec2 xi) {
     float place = xi.x * aperture.blade_count;
     float blade = min(floor(place), aperture.blade_count - 1.0);
     float along = 2.0 * (place - blade) - 1.0;

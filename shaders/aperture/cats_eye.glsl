@@ -7,14 +7,14 @@
 #include "aperture/record.glsl"
 
 // M. Abramowitz and I. Stegun, Handbook of Mathematical Functions, 4.4.46, for values from 0 to 1.
-float arc_cosine(float x) {
+float arc_cosine(const float x) {
     float sum = 1.5707963050 + x * (-0.2145988016 + x * (0.0889789874 + x * (-0.0501743046 + x * (0.0308918810
         + x * (-0.0170881256 + x * (0.0066700901 - x * 0.0012624911))))));
     return sqrt(1.0 - x) * sum;
 }
 
 // psi - sin(psi) for psi from 0 to pi, without losing the digits of small ones.
-float excess(float psi) {
+float excess(const float psi) {
     float p2 = psi * psi;
     float sum = 1.0 / 6.0 + p2 * (-1.0 / 120.0 + p2 * (1.0 / 5040.0 + p2 * (-1.0 / 362880.0 + p2 * (1.0 / 39916800.0
         + p2 * (-1.0 / 6227020800.0 + p2 * (1.0 / 1307674368000.0 - p2 / 355687428096000.0))))));
@@ -25,7 +25,7 @@ float excess(float psi) {
 // as a share of a disc's. The overlap is two caps back to back. The value xi.x chooses a cut across a cap by the area
 // outside the cut: a cut at cos(psi / 2) leaves (psi - sin psi) / 2 outside. Solving this for psi is solving Kepler's
 // equation.
-vec3 overlap_point(vec2 off, vec2 xi) {
+vec3 overlap_point(const vec2 off, const vec2 xi) {
     float distance = length(off);
     vec2 axis = distance > 0.0 ? off / distance : vec2(1.0, 0.0);
     float middle = 0.5 * distance;
@@ -49,7 +49,7 @@ vec3 overlap_point(vec2 off, vec2 xi) {
     return vec3(x * axis + y * vec2(-axis.y, axis.x), cap / 3.14159265);
 }
 
-vec3 cats_eye_point(vec2 q, vec2 xi) {
+vec3 cats_eye_point(const vec2 q, const vec2 xi) {
     // Light that arrives from the right has passed the front rim farther to the left.
     vec2 off = -aperture.cats_eye_shift * q;
     off *= min(1.0, aperture.max_cats_eye_shift / max(length(off), 1e-20));

@@ -5,7 +5,7 @@
 
 #include "aperture/record.glsl"
 
-vec3 disc_point(vec2 q, vec2 xi) {
+vec3 disc_point(const vec2 q, const vec2 xi) {
     return vec3(concentric_disk(xi), 1.0);
 }
 

@@ -8,13 +8,13 @@
 // Running sums of the image's light, from 0 to 1: first over its rows, then within each row. A texel holds four sums.
 layout(set = 0, binding = BINDING_APERTURE_SUMS) uniform utextureBuffer aperture_sums;
 
-float sum_at(uint i) {
+float sum_at(const uint i) {
     return uintBitsToFloat(texelFetch(aperture_sums, int(i >> 2u))[i & 3u]);
 }
 
 // Inverts the running sums that start at the index `first`: finds the cell that a value falls into. The fraction of the
 // result is where in the cell the value lies.
-float cell_place(uint first, uint cells, float value) {
+float cell_place(const uint first, const uint cells, const float value) {
     uint cell = 0u;
     [[unroll]] for (uint step = 128u; step > 0u; step >>= 1u) {
         if (cell + step < cells && sum_at(first + cell + step) <= value) {
@@ -26,7 +26,7 @@ float cell_place(uint first, uint cells, float value) {
     return float(cell) + (light > 0.0 ? (value - before) / light : 0.5);
 }
 
-vec3 image_point(vec2 q, vec2 xi) {
+vec3 image_point(const vec2 q, const vec2 xi) {
     uvec2 cells = aperture.cells;
     float down = cell_place(0u, cells.y, xi.y);
     uint row = min(uint(down), cells.y - 1u);

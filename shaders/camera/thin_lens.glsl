@@ -21,7 +21,7 @@ struct Camera {
 
 // The film position of a sample, as a point of the view plane at distance one, y up. The lens equations call it q.
 // offset is in pixels from the centre of the pixel, y down.
-vec2 view_plane_point(Camera camera, uvec2 extent, uvec2 pixel, vec2 offset) {
+vec2 view_plane_point(const Camera camera, const uvec2 extent, const uvec2 pixel, const vec2 offset) {
     vec2 from_centre = vec2(pixel) - 0.5 * (vec2(extent) - 1.0) + offset;
     return vec2(from_centre.x, -from_centre.y) * camera.inverse_view_distance;
 }
@@ -31,7 +31,7 @@ vec2 view_plane_point(Camera camera, uvec2 extent, uvec2 pixel, vec2 offset) {
 // The centre ray runs from the lens centre through q and meets the focal plane at
 // p = (F q.x, F q.y, -F). The primary ray runs from l to p, along (p - l) / F. If the lens radius
 // is zero, the ray does not depend on F.
-Ray primary_ray(Camera camera, vec2 q, vec2 disk) {
+Ray primary_ray(const Camera camera, const vec2 q, const vec2 disk) {
     vec2 l = camera.lens_radius * disk;
     vec2 slope = q - l * camera.inverse_focal_distance;
     vec3 origin = camera.eye + l.x * camera.u + l.y * camera.v;

@@ -13,7 +13,7 @@ layout(set = 0, binding = BINDING_ACTIVE_PIXELS, std430) readonly buffer ActiveP
 
 // The pixel of this invocation, if it has one. The pixel is taken from the lattice, or, if the lattice has no stride,
 // from the part of the list that starts at the index origin.x.
-bool find_pixel(Lattice lattice, out uvec2 pixel) {
+bool find_pixel(const Lattice lattice, out uvec2 pixel) {
     if (HAS_MOMENTS == 1u && lattice.stride == 0u) {
         uint group = gl_WorkGroupID.y * LISTED_ROW_GROUPS + gl_WorkGroupID.x;
         uint index = lattice.origin.x + GROUP_SIZE * GROUP_SIZE * group + gl_LocalInvocationIndex;
@@ -34,14 +34,14 @@ bool find_pixel(Lattice lattice, out uvec2 pixel) {
 }
 
 // The luminance of a linear colour with the primaries of Rec. 709.
-float luminance(vec3 color) {
+float luminance(const vec3 color) {
     return dot(color, vec3(0.2126, 0.7152, 0.0722));
 }
 
 // The second moment of two sets of samples together, which is the sum of squared differences from their mean:
 // T. Chan, G. Golub, R. LeVeque, "Updating Formulae and a Pairwise Algorithm for Computing Sample
 // Variances", 1979. film and batch are the means and counts of the sets before they are merged.
-float merge_moments(vec4 film, float film_moment, vec4 batch, float batch_moment) {
+float merge_moments(const vec4 film, const float film_moment, const vec4 batch, const float batch_moment) {
     if (film.w == 0.0) {
         return batch_moment;
     }
@@ -56,7 +56,7 @@ float merge_moments(vec4 film, float film_moment, vec4 batch, float batch_moment
 const float DARKEST = 0.05;
 
 // The standard error of a pixel's mean luminance, relative to the mean.
-float relative_error(vec4 film, float moment) {
+float relative_error(const vec4 film, const float moment) {
     float variance_of_mean = moment / (film.w * (film.w - 1.0));
     return film.w < 2.0 ? 1e30 : sqrt(variance_of_mean) / max(luminance(film.rgb), DARKEST);
 }
@@ -68,7 +68,7 @@ float relative_error(vec4 film, float moment) {
 //
 // This function returns that loss for the brightest thing that the pixel's rays can meet, relative to the pixel's mean.
 // N counts the samples of the neighbouring pixels too, because a pixel goes on if one of them hits something.
-float possible_loss(vec4 film, float brightest) {
+float possible_loss(const vec4 film, const float brightest) {
     const float E = 2.718281828;
     const float PIXELS_AROUND = 9.0;
     float mean = luminance(film.rgb);
@@ -84,7 +84,7 @@ const float MAX_LOSS = 0.02;
 const float MAX_THRESHOLD = 0.2;
 
 // Whether a pixel needs more samples, regardless of the pixels around it.
-bool is_noisy(vec4 film, float moment, float brightest, float threshold) {
+bool is_noisy(const vec4 film, const float moment, const float brightest, const float threshold) {
     return relative_error(film, moment) >= min(threshold, MAX_THRESHOLD)
         || possible_loss(film, brightest) >= min(threshold, MAX_LOSS);
 }

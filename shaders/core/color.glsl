@@ -4,7 +4,7 @@
 #define COLOR_GLSL
 
 // The sRGB encoding of linear values, clipped to [0, 1]: IEC 61966-2-1.
-vec3 srgb_encode(vec3 linear) {
+vec3 srgb_encode(const vec3 linear) {
     vec3 clipped = clamp(linear, 0.0, 1.0);
     vec3 curve = 1.055 * pow(clipped, vec3(1.0 / 2.4)) - 0.055;
     return mix(curve, 12.92 * clipped, lessThanEqual(clipped, vec3(0.0031308)));

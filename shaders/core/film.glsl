@@ -18,7 +18,7 @@ struct Lattice {
 };
 
 // The row of workgroups that is visited after `number` others.
-uint visited_row(Lattice lattice, uint number) {
+uint visited_row(const Lattice lattice, const uint number) {
     uint product = number * lattice.row_step;
     // The remainder is computed with floats, because a software device divides integers one lane at a time. The
     // quotient may be off by one.
@@ -27,24 +27,24 @@ uint visited_row(Lattice lattice, uint number) {
     return uint(rest) - (rest >= int(lattice.row_count) ? lattice.row_count : 0u);
 }
 
-uvec2 lattice_pixel(Lattice lattice, uvec2 invocation) {
+uvec2 lattice_pixel(const Lattice lattice, const uvec2 invocation) {
     return lattice.origin + lattice.stride * invocation;
 }
 
-bool inside(uvec2 pixel, uvec2 extent) {
+bool inside(const uvec2 pixel, const uvec2 extent) {
     return pixel.x < extent.x && pixel.y < extent.y;
 }
 
 // Merges the mean of batch.w samples into a mean of film.w samples. If a count is zero, the colours with it may be
 // anything, so they are replaced rather than multiplied by zero.
-vec4 merge(vec4 film, vec4 batch) {
+vec4 merge(const vec4 film, const vec4 batch) {
     float count = film.w + batch.w;
     vec3 merged = film.rgb + (batch.rgb - film.rgb) * (batch.w / count);
     return vec4(film.w == 0.0 ? batch.rgb : batch.w == 0.0 ? film.rgb : merged, count);
 }
 
 // This tests the bits, because a driver may assume that there are no infinities and no NaNs.
-bool is_finite(vec3 value) {
+bool is_finite(const vec3 value) {
     return all(notEqual(floatBitsToUint(value) & 0x7f800000u, uvec3(0x7f800000u)));
 }
 

@@ -17,17 +17,19 @@ struct OverlayScale {
 };
 
 // The diameter of the circle of confusion in pixels: D k (1 / F - 1 / z). It is positive behind the focal plane.
-float circle_of_confusion(OverlayScale scale, float depth) {
+float circle_of_confusion(const OverlayScale scale, const float depth) {
     return scale.blur * (scale.inverse_image_distance - 1.0 / depth);
 }
 
 // A colour scale from black over red and yellow to white.
-vec3 heat(float share) {
+vec3 heat(const float share) {
     return clamp(vec3(3.0 * share, 3.0 * share - 1.0, 3.0 * share - 2.0), 0.0, 1.0);
 }
 
 // surface is the normal at the point that the pixel's centre sees, in the camera's frame, and in w the depth.
-vec3 overlay_color(OverlayScale scale, vec3 picture, float count, float error, vec4 surface) {
+vec3 overlay_color(
+    const OverlayScale scale, const vec3 picture, const float count, const float error, const vec4 surface
+) {
     float depth = surface.w;
     switch (scale.kind) {
     case OVERLAY_COUNT:

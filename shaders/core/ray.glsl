@@ -15,11 +15,11 @@ struct Ray {
 float ray_time = 0.0;
 
 // These replace min() and max(), whose rules for NaNs cost a software device three more instructions.
-float smaller(float a, float b) { return a < b ? a : b; }
-float larger(float a, float b) { return a > b ? a : b; }
+float smaller(const float a, const float b) { return a < b ? a : b; }
+float larger(const float a, const float b) { return a > b ? a : b; }
 
 // 1 / direction with zero components replaced, so that no distance to an axis-aligned plane is 0 * infinity.
-vec3 safe_inverse(vec3 direction) {
+vec3 safe_inverse(const vec3 direction) {
     vec3 tiny = mix(vec3(-1e-20), vec3(1e-20), greaterThanEqual(direction, vec3(0.0)));
     return 1.0 / mix(direction, tiny, lessThan(abs(direction), vec3(1e-20)));
 }

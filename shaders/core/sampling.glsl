@@ -44,13 +44,13 @@ uvec4 pcg4d(uvec4 v) {
 
 // Folds the upper half of the hash's bits into the lower half. The lower bits of pcg4d are its weaker ones, but they
 // decide the leading bits of the samples.
-uvec4 folded(uvec4 hash) {
+uvec4 folded(const uvec4 hash) {
     return hash ^ (hash >> 16u);
 }
 
 // The mask of a pixel, which combines a hash of its number in the blue-noise tile with a hash of the seed. The seed
 // also shifts the tile, by bits that the mask does not use.
-uvec4 blue_noise_mask(uint seed, uvec2 pixel, uint block) {
+uvec4 blue_noise_mask(const uint seed, const uvec2 pixel, const uint block) {
     uvec4 shift = folded(pcg4d(uvec4(0u, 0u, block, seed)));
     uvec2 at = (pixel + shift.xy) & (TILE - 1u);
     uint place = at.y * TILE + at.x;
@@ -60,7 +60,7 @@ uvec4 blue_noise_mask(uint seed, uvec2 pixel, uint block) {
 }
 
 // The keys that all samples of a pixel share.
-uvec4 sample_keys(uint seed, uvec2 pixel, uint block) {
+uvec4 sample_keys(const uint seed, const uvec2 pixel, const uint block) {
     switch (SAMPLER) {
     case SAMPLER_BLUE_NOISE:
         return blue_noise_mask(seed, pixel, block);
@@ -72,7 +72,7 @@ uvec4 sample_keys(uint seed, uvec2 pixel, uint block) {
 }
 
 // Four values in [0, 1), multiples of 2^-24, which f32 holds exactly.
-vec4 sample_values(uvec4 keys, uint sample_index) {
+vec4 sample_values(const uvec4 keys, const uint sample_index) {
     uvec4 bits;
     switch (SAMPLER) {
     case SAMPLER_BLUE_NOISE:
@@ -90,12 +90,12 @@ vec4 sample_values(uvec4 keys, uint sample_index) {
 // The index of a sample in another order of the sequence, so that its point is independent of the one that the index
 // itself has: B. Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020, section 4. Each run of 2^k indices
 // that starts at a multiple of 2^k stays together.
-uint shuffled_index(uint sample_index, uint order) {
+uint shuffled_index(const uint sample_index, const uint order) {
     return bitfieldReverse(scramble_upwards(uvec4(bitfieldReverse(sample_index)), uvec4(order)).x);
 }
 
 // A value in [0, 1) for the time. The values are the points of the sequence's first dimension, in their own order.
-float time_value(uvec4 keys, uint sample_index) {
+float time_value(const uvec4 keys, const uint sample_index) {
     if (SAMPLER == SAMPLER_RANDOM) {
         return sample_values(keys, sample_index).x;
     }
@@ -117,7 +117,7 @@ struct PathSampler {
 // Four values in [0, 1) for a use at a bounce. Each block has the points in its own order. If blocks shared an order,
 // their values would be correlated: the half of [0, 1) that a value of one block lies in would determine the half for
 // another block. With blue noise, all pixels share one order, as they share one sequence.
-vec4 path_values(PathSampler path, uint bounce, uint use) {
+vec4 path_values(const PathSampler path, const uint bounce, const uint use) {
     uint block = BLOCK_FIRST_BOUNCE + USES * bounce + use;
     uvec4 keys = sample_keys(path.seed, path.pixel, block);
     if (SAMPLER == SAMPLER_RANDOM) {
@@ -129,13 +129,13 @@ vec4 path_values(PathSampler path, uint bounce, uint use) {
 
 // The film position of a sample, in pixels from its start pixel's centre, x right and y down. The positions fill a
 // square whose side is jitter pixels.
-vec2 film_offset(vec2 xi, float jitter) {
+vec2 film_offset(const vec2 xi, const float jitter) {
     return (xi - 0.5) * jitter;
 }
 
 // The pixel that a sample with this offset lands in, relative to its start pixel. Only the offset is rounded: the floor
 // of an absolute f32 position would move some samples across a pixel's edge.
-ivec2 landing_step(vec2 offset) {
+ivec2 landing_step(const vec2 offset) {
     return ivec2(floor(offset + 0.5));
 }
 
@@ -144,7 +144,7 @@ ivec2 landing_step(vec2 offset) {
 //
 // Within a sector the angle stays in [-pi/4, pi/4], so a short Taylor series gives its sine and
 // cosine to f32 precision. Vulkan lets the built-in sin and cos err by 2^-11.
-vec2 concentric_disk(vec2 xi) {
+vec2 concentric_disk(const vec2 xi) {
     vec2 square = 2.0 * xi - 1.0;
     bool wide = abs(square.x) > abs(square.y);
     float radius = wide ? square.x : square.y;

@@ -6,7 +6,7 @@
 // Flips each bit or not, as a hash of the key and the bits below it decides. For bits in reverse order this is an Owen
 // scramble. S. Laine and T. Karras, "Stratified Sampling for Stochastic
 // Transparency", EGSR 2011, with the constants of N. Vegdahl, "Building a Better LK Hash", 2021.
-uvec4 scramble_upwards(uvec4 bits, uvec4 key) {
+uvec4 scramble_upwards(uvec4 bits, const uvec4 key) {
     bits ^= bits * 0x3d20adeau;
     bits += key;
     bits *= (key >> 16u) | 1u;
@@ -41,7 +41,7 @@ const uvec2 SOBOL_THIRD_AND_FOURTH_REVERSED[24] = uvec2[24](
     uvec2(0x3a3939u, 0x2f42c9u), uvec2(0x717777u, 0x555512u), uvec2(0xa3aaaau, 0xffff76u)
 );
 
-uvec2 sobol_third_and_fourth_reversed(uint index) {
+uvec2 sobol_third_and_fourth_reversed(const uint index) {
     uvec2 sum = uvec2(0u);
     for (uint bit = 0u; bit < 24u; ++bit) {
         sum ^= SOBOL_THIRD_AND_FOURTH_REVERSED[bit] & uvec2(-int(index >> bit & 1u));
@@ -53,7 +53,7 @@ uvec2 sobol_third_and_fourth_reversed(uint index) {
 // Hash-based Owen Scrambling", JCGT 9(4), 2020. The first dimension with its bits in reverse is the index. Film and
 // lens take one point of four dimensions instead of two padded pairs, because a blurred edge depends on both at once.
 // The lens takes the first two dimensions, whose points are the best distributed pair.
-uvec4 sobol_film_and_lens(uint index, uvec4 keys) {
+uvec4 sobol_film_and_lens(const uint index, const uvec4 keys) {
     uvec4 reversed = uvec4(sobol_third_and_fourth_reversed(index), index, sobol_second_reversed(index));
     return bitfieldReverse(scramble_upwards(reversed, keys));
 }

@@ -28,7 +28,7 @@ layout(set = 0, binding = BINDING_COUNTERS, std430) buffer Counters {
 
 // The mean of the samples first_sample .. first_sample + sample_count of the pixel, and in w how many of them were
 // finite. moment is the second moment of their luminance, if the film has moments.
-vec4 trace_batch(TracePush push, uvec2 pixel, out float moment) {
+vec4 trace_batch(const TracePush push, const uvec2 pixel, out float moment) {
     vec4 batch = vec4(0.0);
     moment = 0.0;
     uint rays = 0u;

@@ -9,18 +9,24 @@
 #include "material/material.glsl"
 
 // Whether light from this direction arrives at the outside of the surface. cosine is that of the angle to its normal.
-bool lights_up(SurfacePoint at, vec3 direction, out float cosine) {
+bool lights_up(const SurfacePoint at, const vec3 direction, out float cosine) {
     cosine = dot(at.shading_normal, direction);
     return cosine > 0.0 && dot(at.normal, direction) > 0.0;
 }
 
 // The radiance of one light that the surface reflects towards the viewer.
-vec3 reflected_light(Material material, vec3 color, SurfacePoint at, LightSample arriving, float cosine, vec3 to_viewer) {
+vec3 reflected_light(
+    const Material material, const vec3 color, const SurfacePoint at, const LightSample arriving,
+    const float cosine, const vec3 to_viewer
+) {
     return material_f(material, color, at, arriving.direction, to_viewer) * arriving.radiance * cosine;
 }
 
 // The radiance that the surface emits, and that it reflects of the ambient light and of all lights.
-vec3 shade(Material material, vec3 color, SurfacePoint at, vec3 to_viewer, inout uint rays, inout bool given_up) {
+vec3 shade(
+    const Material material, const vec3 color, const SurfacePoint at, const vec3 to_viewer, inout uint rays,
+    inout bool given_up
+) {
     vec3 sum = material_emission(material, color) + material_ambient(material, color) * get_environment().ambient;
     if (material.kd == 0.0 && material.ks == 0.0) {
         return sum;
@@ -54,7 +60,7 @@ vec3 shade(Material material, vec3 color, SurfacePoint at, vec3 to_viewer, inout
 // The radiance that arrives along the ray: the radiance of the surface, plus that of its mirror image, followed for at
 // most max_bounces reflections. rays counts every ray traced, including shadow rays. given_up is true if a search took
 // too long; the radiance is then of no use. This integrator makes no random decisions, so it takes no values of path.
-vec3 radiance(Ray ray, PathSampler path, uint max_bounces, inout uint rays, out bool given_up) {
+vec3 radiance(Ray ray, const PathSampler path, const uint max_bounces, inout uint rays, out bool given_up) {
     vec3 sum = vec3(0.0);
     vec3 throughput = vec3(1.0);
     given_up = false;

@@ -5,7 +5,7 @@
 
 #include "scene/scene.glsl"
 
-vec3 background_radiance(vec3 direction) {
+vec3 background_radiance(const vec3 direction) {
     float height = clamp(direction.y, 0.0, 1.0);
     // Unlike mix(), this returns exactly the same colour if both colours are equal.
     Environment sky = get_environment();

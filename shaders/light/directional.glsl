@@ -5,7 +5,7 @@
 
 #include "scene/scene.glsl"
 
-LightSample directional_sample(Light light, vec3 from) {
+LightSample directional_sample(const Light light, const vec3 from) {
     return LightSample(light.position_or_direction, MISS, light.radiance);
 }
 

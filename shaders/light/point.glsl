@@ -5,7 +5,7 @@
 
 #include "scene/scene.glsl"
 
-LightSample point_sample(Light light, vec3 from) {
+LightSample point_sample(const Light light, const vec3 from) {
     vec3 to_light = light.position_or_direction - from;
     float distance = length(to_light);
     return LightSample(to_light / distance, distance, light.radiance);

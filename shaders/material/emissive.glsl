@@ -5,7 +5,7 @@
 
 #include "scene/surface.glsl"
 
-vec3 emissive_emission(Material material, vec3 color) {
+vec3 emissive_emission(const Material material, const vec3 color) {
     return color;
 }
 

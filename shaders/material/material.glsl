@@ -8,30 +8,33 @@
 
 // Every material looks the same from both sides of a surface. So this turns the normals to the side that the ray comes
 // from, and puts the origin of further rays on that side.
-void face_forward(inout SurfacePoint at, vec3 direction) {
+void face_forward(inout SurfacePoint at, const vec3 direction) {
     bool from_behind = dot(at.normal, direction) > 0.0;
     at.normal = from_behind ? -at.normal : at.normal;
     at.shading_normal = from_behind ? -at.shading_normal : at.shading_normal;
     at.offset_position = at.position + at.error * at.normal;
 }
 
-#define IF_MATERIAL(KIND) if (is_of_kind(MATERIAL_KINDS, material.kind, MATERIAL_##KIND))
+#define IF_MATERIAL(KIND) if (IS_OF_KIND(MATERIAL_KINDS, material.kind, MATERIAL_##KIND))
 
-vec3 material_emission(Material material, vec3 color) {
+vec3 material_emission(const Material material, const vec3 color) {
     vec3 value = vec3(0.0);
 #define EMISSION(KIND, kind_) IF_MATERIAL(KIND) { value = kind_##_emission(material, color); }
     FOR_EACH_MATERIAL_EMISSION(EMISSION)
     return value;
 }
 
-vec3 material_ambient(Material material, vec3 color) {
+vec3 material_ambient(const Material material, const vec3 color) {
     vec3 value = vec3(0.0);
 #define AMBIENT(KIND, kind_) IF_MATERIAL(KIND) { value = kind_##_ambient(material, color); }
     FOR_EACH_MATERIAL_AMBIENT(AMBIENT)
     return value;
 }
 
-vec3 material_f(Material material, vec3 color, SurfacePoint at, vec3 to_light, vec3 to_viewer) {
+vec3 material_f(
+    const Material material, const vec3 color, const SurfacePoint at, const vec3 to_light,
+    const vec3 to_viewer
+) {
     vec3 value = vec3(0.0);
 #define REFLECTED(KIND, kind_) IF_MATERIAL(KIND) { value = kind_##_f(material, color, at, to_light, to_viewer); }
     FOR_EACH_MATERIAL_F(REFLECTED)
@@ -39,7 +42,7 @@ vec3 material_f(Material material, vec3 color, SurfacePoint at, vec3 to_light, v
 }
 
 // The weight is zero if the material scatters no light in a single direction.
-Scatter material_sample(Material material, vec3 color, SurfacePoint at, vec3 direction) {
+Scatter material_sample(const Material material, const vec3 color, const SurfacePoint at, const vec3 direction) {
     Scatter value = Scatter(vec3(0.0), vec3(0.0));
 #define SAMPLE(KIND, kind_) IF_MATERIAL(KIND) { value = kind_##_sample(material, color, at, direction); }
     FOR_EACH_MATERIAL_SAMPLE(SAMPLE)

@@ -7,11 +7,14 @@
 
 const float INVERSE_PI = 0.318309886;
 
-vec3 matte_ambient(Material material, vec3 color) {
+vec3 matte_ambient(const Material material, const vec3 color) {
     return material.ka * color;
 }
 
-vec3 matte_f(Material material, vec3 color, SurfacePoint at, vec3 to_light, vec3 to_viewer) {
+vec3 matte_f(
+    const Material material, const vec3 color, const SurfacePoint at, const vec3 to_light,
+    const vec3 to_viewer
+) {
     return material.kd * INVERSE_PI * color;
 }
 

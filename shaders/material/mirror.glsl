@@ -5,11 +5,14 @@
 
 #include "material/phong.glsl"
 
-vec3 mirror_f(Material material, vec3 color, SurfacePoint at, vec3 to_light, vec3 to_viewer) {
+vec3 mirror_f(
+    const Material material, const vec3 color, const SurfacePoint at, const vec3 to_light,
+    const vec3 to_viewer
+) {
     return vec3(phong_highlight(material, at, to_light, to_viewer));
 }
 
-Scatter mirror_sample(Material material, vec3 color, SurfacePoint at, vec3 direction) {
+Scatter mirror_sample(const Material material, const vec3 color, const SurfacePoint at, const vec3 direction) {
     vec3 mirrored = reflect(direction, at.shading_normal);
     // A direction that would enter the surface is mirrored out of the surface again.
     mirrored -= 2.0 * smaller(dot(mirrored, at.normal), 0.0) * at.normal;

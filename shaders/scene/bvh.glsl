@@ -33,20 +33,28 @@ bool has_tree() {
     return depth > 0u;
 }
 
-bool is_node(uvec4 record[3]) {
+bool is_node(const uvec4 record[3]) {
     return child_count(record[0].w) > 0u;
 }
 
-TreeNode to_node(uvec4 record[3]) {
+TreeNode to_node(const uvec4 record[3]) {
     return TreeNode(uintBitsToFloat(record[0].xyz), record[0].w, record[1].xy, record[1].zw, record[2].xy, record[2].w);
 }
 
-float tree_shape_distance(Ray ray, vec3 inverse_direction, ShapeRecord shape) {
+float tree_shape_distance(const Ray ray, const vec3 inverse_direction, const ShapeRecord record) {
     float distance = MISS;
+    vec3 displacement = vec3(0.0);
+    if (SCENE_MOVES == 1u) {
+        displacement = ray_time * fetch_velocity(record.index);
+    }
 #define TREE_DISTANCE(KIND, kind_) \
-    if (has_kind(SHAPE_KINDS, SHAPE_##KIND)) { \
+    if (HAS_KIND(SHAPE_KINDS, SHAPE_##KIND)) { \
+        ShapeRecord shape = record; \
+        if (SCENE_MOVES == 1u) { \
+            move_##kind_(shape, displacement); \
+        } \
         float at = kind_##_distance(ray, inverse_direction, shape); \
-        distance = is_of_kind(SHAPE_KINDS & BOUNDED_KINDS, shape.kind, SHAPE_##KIND) ? at : distance; \
+        distance = IS_OF_KIND(SHAPE_KINDS & BOUNDED_KINDS, shape.kind, SHAPE_##KIND) ? at : distance; \
     }
     FOR_EACH_BOUNDED_KIND(TREE_DISTANCE)
     return distance;
@@ -56,7 +64,7 @@ const uint FAR_KEY = 0xffffffffu;
 
 // A key to sort children by: the bits of the distance, which is not negative, with the child's number in the lowest
 // two. exists is false for a child that the node does not have. With the slack, a ray could meet even an empty box.
-uint child_key(vec3 enter, vec3 leave, float limit, uint child, bool exists) {
+uint child_key(const vec3 enter, const vec3 leave, const float limit, const uint child, const bool exists) {
     float near = larger(larger(enter.x, enter.y), larger(enter.z, 0.0));
     float far = smaller(smaller(leave.x, leave.y), smaller(leave.z, limit));
     return exists && near <= far * BOX_SLACK ? floatBitsToUint(near) & ~3u | child : FAR_KEY;
@@ -68,7 +76,9 @@ uint child_key(vec3 enter, vec3 leave, float limit, uint child, bool exists) {
 // children are sorted, the nearest one is in the lowest bits.
 const uint NO_CHILDREN = 1u;
 
-uint meet_children(Ray ray, vec3 inverse_direction, float limit, bool sorted, TreeNode node) {
+uint meet_children(
+    const Ray ray, const vec3 inverse_direction, const float limit, const bool sorted, const TreeNode node
+) {
     uvec3 exponents = uvec3(node.exponents_and_child_count) << uvec3(23u, 15u, 7u) & 0x7f800000u;
     vec3 step = uintBitsToFloat(exponents) * inverse_direction;
     vec3 origin = (node.origin - ray.origin) * inverse_direction;
@@ -108,12 +118,14 @@ const uint STACK_CHILDREN = (1u << STACK_CHILD_BITS) - 1u;
 #define SHIFT(i) \
     if (depth >= i) { \
         uint here = stack[i - 1u]; \
-        stack[i - 1u] = pushes ? above : pops ? stack[i] : here; \
+        uint below = stack[i]; \
+        uint popped = pops ? below : here; \
+        stack[i - 1u] = pushes ? above : popped; \
         above = here; \
     }
 
 // Pushes one entry, pops one, or does neither. Returns the entry that was on top.
-uint shift_stack(bool pushes, bool pops, uint above) {
+uint shift_stack(const bool pushes, const bool pops, uint above) {
     uint depth = TREE_DEPTH;
     uint top = stack[0];
     SHIFT(1u) SHIFT(2u) SHIFT(3u) SHIFT(4u) SHIFT(5u) SHIFT(6u) SHIFT(7u) SHIFT(8u) SHIFT(9u) SHIFT(10u)
@@ -126,7 +138,10 @@ uint shift_stack(bool pushes, bool pops, uint above) {
 
 // The distance to the nearest shape nearer than limit, and its record; MISS if there is none. With
 // any_will_do the first one found ends the search. given_up: the search took too long.
-float search_tree(Ray ray, vec3 inverse_direction, float limit, bool any_will_do, out uint nearest, inout bool given_up) {
+float search_tree(
+    const Ray ray, const vec3 inverse_direction, const float limit, const bool any_will_do, out uint nearest,
+    inout bool given_up
+) {
     uint first = 0u; // the root
     uint children = NO_CHILDREN << 2u;
     float distance = MISS;
@@ -153,9 +168,7 @@ float search_tree(Ray ray, vec3 inverse_direction, float limit, bool any_will_do
             first = descends ? node.first : first;
             children = descends ? met : children;
         } else {
-            vec3 displacement;
-            ShapeRecord shape = shape_now(to_shape(record), displacement);
-            float at = tree_shape_distance(ray, inverse_direction, shape);
+            float at = tree_shape_distance(ray, inverse_direction, to_shape(record));
             bool closer = at < distance;
             nearest = closer ? index : nearest;
             distance = closer ? at : distance;

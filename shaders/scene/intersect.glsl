@@ -19,52 +19,73 @@ struct Hit {
     vec3 displacement; // how far the shape is from where it is in the middle of the exposure
 };
 
-// Moves a bounded shape. Records that are no bounded shapes stay as they are.
-void move_shape(inout ShapeRecord shape, vec3 displacement) {
-#define MOVE(KIND, kind_) \
-    if (has_kind(SHAPE_KINDS, SHAPE_##KIND)) { \
-        ShapeRecord moved = shape; \
-        move_##kind_(moved, displacement); \
-        if (is_of_kind(SHAPE_KINDS & BOUNDED_KINDS, shape.kind, SHAPE_##KIND)) { \
-            shape = moved; \
-        } \
-    }
-    FOR_EACH_BOUNDED_KIND(MOVE)
-}
-
-// The shape where it is at the time of the ray, and its displacement since the middle of the exposure.
-ShapeRecord shape_now(ShapeRecord shape, out vec3 displacement) {
-    displacement = vec3(0.0);
-    if (SCENE_MOVES == 1u) {
-        displacement = ray_time * fetch_velocity(shape.index);
-        move_shape(shape, displacement);
-    }
-    return shape;
-}
-
 #include "scene/bvh.glsl"
 #include "scene/list.glsl"
 
-// Fetches the record of the nearest shape and makes the hit. ray must be the ray that found the shape.
-Hit hit_by_fetching(Ray ray, vec3 inverse_direction, Nearest nearest, vec3 position) {
-    vec3 displacement;
-    ShapeRecord shape = shape_now(fetch_shape(nearest.record), displacement);
-    Surface surface = NO_SURFACE;
-#define FETCHED_SURFACE(KIND, kind_) \
-    if (has_kind(SHAPE_KINDS, SHAPE_##KIND)) { \
-        Surface other = kind_##_surface(ray, inverse_direction, shape, position); \
-        if (is_of_kind(SHAPE_KINDS, shape.kind, SHAPE_##KIND)) { \
-            surface = other; \
+// Whether there are copies of all shapes, so that a hit needs no fetch. LIST_BEGIN is 0 then.
+bool all_shapes_are_kept() {
+    return SCENE_IS_KEPT == 1u && !has_tree();
+}
+
+// The hit of the nearest shape. ray must be the ray that found it. A shape's index differs from invocation to
+// invocation, so copies are gone through instead of indexed: each kind goes through its own, and reads only the members
+// that it needs.
+Hit hit_of(const Ray ray, const vec3 inverse_direction, const Nearest nearest, const vec3 position) {
+    Hit hit = Hit(nearest.distance, 0u, NO_SURFACE, vec3(0.0));
+    ShapeRecord fetched;
+    vec3 fetched_velocity = vec3(0.0);
+    if (!all_shapes_are_kept()) {
+        fetched = fetch_shape(nearest.record);
+        if (SCENE_MOVES == 1u) {
+            fetched_velocity = fetch_velocity(fetched.index);
+        }
+    }
+#define LOOK_UP(value, kept_values, KIND) \
+    value = kept_values[KIND##_BEGIN]; \
+    [[unroll]] for (uint i = KIND##_BEGIN + 1u; i < KIND##_END; ++i) { \
+        if (nearest.record == i) { \
+            value = kept_values[i]; \
         } \
     }
-    FOR_EACH_KIND(FETCHED_SURFACE)
-    return Hit(nearest.distance, shape.material, surface, displacement);
+#define FIND_RECORD(KIND) \
+    ShapeRecord shape = fetched; \
+    if (all_shapes_are_kept()) { \
+        LOOK_UP(shape, kept_shapes, KIND) \
+    }
+#define KEEP_HIT(KIND, kind_) \
+    Surface surface = kind_##_surface(ray, inverse_direction, shape, position); \
+    if (all_shapes_are_kept() ? nearest.record >= KIND##_BEGIN : IS_OF_KIND(SHAPE_KINDS, shape.kind, SHAPE_##KIND)) { \
+        hit = Hit(nearest.distance, shape.material, surface, displacement); \
+    }
+#define HIT_BOUNDED(KIND, kind_) \
+    if (HAS_KIND(SHAPE_KINDS, SHAPE_##KIND)) { \
+        FIND_RECORD(KIND) \
+        vec3 displacement = vec3(0.0); \
+        if (SCENE_MOVES == 1u) { \
+            vec3 velocity = fetched_velocity; \
+            if (all_shapes_are_kept()) { \
+                LOOK_UP(velocity, kept_velocities, KIND) \
+            } \
+            displacement = ray_time * velocity; \
+            move_##kind_(shape, displacement); \
+        } \
+        KEEP_HIT(KIND, kind_) \
+    }
+#define HIT_UNBOUNDED(KIND, kind_) \
+    if (HAS_KIND(SHAPE_KINDS, SHAPE_##KIND)) { \
+        FIND_RECORD(KIND) \
+        vec3 displacement = vec3(0.0); \
+        KEEP_HIT(KIND, kind_) \
+    }
+    FOR_EACH_BOUNDED_KIND(HIT_BOUNDED)
+    FOR_EACH_UNBOUNDED_KIND(HIT_UNBOUNDED)
+    return hit;
 }
 
 // A distance that the ray can go before it meets any bounded shape: where it enters the scene's bounding sphere, or a
 // little earlier. The rounding errors of an intersection grow with the distance. They would let rays from far away pass
 // between the triangles of a mesh, so rays start at this distance.
-float scene_entry_distance(Ray ray) {
+float scene_entry_distance(const Ray ray) {
     if (!has_tree()) {
         return 0.0;
     }
@@ -74,7 +95,7 @@ float scene_entry_distance(Ray ray) {
 }
 
 // The nearest hit, or one with distance MISS. given_up becomes true if the search took too long.
-Hit intersect_scene(Ray from, inout bool given_up) {
+Hit intersect_scene(const Ray from, inout bool given_up) {
     Nearest nearest = Nearest(MISS, 0u);
     vec3 inverse_direction = safe_inverse(from.direction);
     float start = scene_entry_distance(from);
@@ -86,10 +107,7 @@ Hit intersect_scene(Ray from, inout bool given_up) {
     nearest.distance += start;
     find_unbounded(from, inverse_direction, nearest);
     vec3 position = from.origin + nearest.distance * from.direction;
-    if (SCENE_IS_KEPT == 1u && !has_tree()) {
-        return hit_in_list(ray, inverse_direction, nearest, position);
-    }
-    return hit_by_fetching(ray, inverse_direction, nearest, position);
+    return hit_of(ray, inverse_direction, nearest, position);
 }
 
 // An upper bound for the rounding errors of a point on a surface, along the normal, and of an intersection whose ray
@@ -98,7 +116,7 @@ const float ROUNDING = 9.5367432e-7; // 16 * 2^-24
 
 // Moves a hit's position onto the surface, and returns the unit normal there, which may point to either side. The error
 // of position on entry grows with the length of the ray. Afterwards position is within `error` of the surface.
-vec3 project_onto_surface(Surface surface, inout vec3 position, out float error) {
+vec3 project_onto_surface(const Surface surface, inout vec3 position, out float error) {
     float normal_length = length(surface.normal);
     vec3 normal = surface.normal / normal_length;
     float height = surface.is_curved
@@ -112,7 +130,7 @@ vec3 project_onto_surface(Surface surface, inout vec3 position, out float error)
 }
 
 // Whether anything lies on the ray nearer than limit.
-bool occluded(Ray from, float limit, inout bool given_up) {
+bool occluded(const Ray from, const float limit, inout bool given_up) {
     float distance = MISS;
     vec3 inverse_direction = safe_inverse(from.direction);
     float start = scene_entry_distance(from);

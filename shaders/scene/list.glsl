@@ -4,7 +4,7 @@
 #ifndef LIST_GLSL
 #define LIST_GLSL
 
-void keep_nearer(inout Nearest nearest, float distance, uint i) {
+void keep_nearer(inout Nearest nearest, const float distance, const uint i) {
     if (distance < nearest.distance) {
         nearest = Nearest(distance, list_begin() + i);
     }
@@ -12,7 +12,7 @@ void keep_nearer(inout Nearest nearest, float distance, uint i) {
 
 // Goes through the shapes of a kind.
 #define FOR_EACH_LISTED(KIND) \
-    if (has_kind(SHAPE_KINDS, SHAPE_##KIND)) \
+    if (HAS_KIND(SHAPE_KINDS, SHAPE_##KIND)) \
         [[unroll]] for (uint i = range_begin(SHAPE_##KIND, KIND##_BEGIN), end = range_end(SHAPE_##KIND, KIND##_END); i < end; ++i)
 
 // A bounded shape of the list, moved to where it is at the time of the ray.
@@ -22,7 +22,7 @@ void keep_nearer(inout Nearest nearest, float distance, uint i) {
         move_##kind_(shape, ray_time * get_velocity(i, shape)); \
     }
 
-void find_bounded(Ray ray, vec3 inverse_direction, inout Nearest nearest) {
+void find_bounded(const Ray ray, const vec3 inverse_direction, inout Nearest nearest) {
 #define FIND_BOUNDED(KIND, kind_) \
     FOR_EACH_LISTED(KIND) { \
         LISTED_NOW(kind_) \
@@ -31,7 +31,7 @@ void find_bounded(Ray ray, vec3 inverse_direction, inout Nearest nearest) {
     FOR_EACH_BOUNDED_KIND(FIND_BOUNDED)
 }
 
-void find_unbounded(Ray ray, vec3 inverse_direction, inout Nearest nearest) {
+void find_unbounded(const Ray ray, const vec3 inverse_direction, inout Nearest nearest) {
 #define FIND_UNBOUNDED(KIND, kind_) \
     FOR_EACH_LISTED(KIND) { \
         keep_nearer(nearest, kind_##_distance(ray, inverse_direction, get_listed(i)), i); \
@@ -39,50 +39,8 @@ void find_unbounded(Ray ray, vec3 inverse_direction, inout Nearest nearest) {
     FOR_EACH_UNBOUNDED_KIND(FIND_UNBOUNDED)
 }
 
-// The hit of a shape in a list that was copied, without a fetch. Each kind searches the range of its own shapes, and
-// reads only the copies that it needs. The index differs from invocation to invocation, so the copies are gone through
-// instead of indexed. A scene with a copied list and no tree has LIST_BEGIN = 0.
-Hit hit_in_list(Ray ray, vec3 inverse_direction, Nearest nearest, vec3 position) {
-    uint index = nearest.record;
-    Hit hit = Hit(nearest.distance, 0u, NO_SURFACE, vec3(0.0));
-#define LOOK_UP(value, kept_values, KIND) \
-    value = kept_values[KIND##_BEGIN]; \
-    [[unroll]] for (uint i = KIND##_BEGIN + 1u; i < KIND##_END; ++i) { \
-        if (index == i) { \
-            value = kept_values[i]; \
-        } \
-    }
-#define KEEP_HIT(KIND, kind_) \
-    Surface surface = kind_##_surface(ray, inverse_direction, shape, position); \
-    if (index >= KIND##_BEGIN) { \
-        hit = Hit(nearest.distance, shape.material, surface, displacement); \
-    }
-#define HIT_BOUNDED(KIND, kind_) \
-    if (has_kind(SHAPE_KINDS, SHAPE_##KIND)) { \
-        ShapeRecord shape; \
-        LOOK_UP(shape, kept_shapes, KIND) \
-        vec3 displacement = vec3(0.0); \
-        if (SCENE_MOVES == 1u) { \
-            LOOK_UP(displacement, kept_velocities, KIND) \
-            displacement *= ray_time; \
-            move_##kind_(shape, displacement); \
-        } \
-        KEEP_HIT(KIND, kind_) \
-    }
-#define HIT_UNBOUNDED(KIND, kind_) \
-    if (has_kind(SHAPE_KINDS, SHAPE_##KIND)) { \
-        ShapeRecord shape; \
-        LOOK_UP(shape, kept_shapes, KIND) \
-        vec3 displacement = vec3(0.0); \
-        KEEP_HIT(KIND, kind_) \
-    }
-    FOR_EACH_BOUNDED_KIND(HIT_BOUNDED)
-    FOR_EACH_UNBOUNDED_KIND(HIT_UNBOUNDED)
-    return hit;
-}
-
 // Shadow rays need only the distance.
-float bounded_distance(Ray ray, vec3 inverse_direction) {
+float bounded_distance(const Ray ray, const vec3 inverse_direction) {
     float nearest = MISS;
 #define BOUNDED_DISTANCE(KIND, kind_) \
     FOR_EACH_LISTED(KIND) { \
@@ -93,7 +51,7 @@ float bounded_distance(Ray ray, vec3 inverse_direction) {
     return nearest;
 }
 
-float unbounded_distance(Ray ray, vec3 inverse_direction) {
+float unbounded_distance(const Ray ray, const vec3 inverse_direction) {
     float nearest = MISS;
 #define UNBOUNDED_DISTANCE(KIND, kind_) \
     FOR_EACH_LISTED(KIND) { \

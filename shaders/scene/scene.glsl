@@ -7,15 +7,12 @@
 #include "material/record.glsl"
 #include "shape/kinds.glsl"
 
-// Whether a set of kinds, which has a bit for each kind, contains this one.
-bool has_kind(uint kinds, uint kind) {
-    return (kinds >> kind & 1u) != 0u;
-}
+// Whether a set of kinds, which has a bit for each kind, contains this one. This is a macro, so that the answer for a
+// specialization constant is a constant.
+#define HAS_KIND(kinds, kind) (((kinds) >> (kind) & 1u) != 0u)
 
 // Whether a thing is of this kind. Where the scene has one kind alone, the compiler knows the answer.
-bool is_of_kind(uint kinds, uint kind_of_thing, uint kind) {
-    return has_kind(kinds, kind) && (kinds == 1u << kind || kind_of_thing == kind);
-}
+#define IS_OF_KIND(kinds, kind_of_thing, kind) (HAS_KIND(kinds, kind) && ((kinds) == 1u << (kind) || (kind_of_thing) == (kind)))
 
 // Where the scene is copied, the numbers of lights and materials are specialization constants, so that loops over them
 // can unroll. For shapes, the constants are where the range of each kind ends in the list: see build.rs. Where the scene
@@ -61,10 +58,12 @@ uint list_begin() { if (SCENE_IS_KEPT == 1u) { return LIST_BEGIN; } return count
 uint light_count() { if (SCENE_IS_KEPT == 1u) { return LIGHT_COUNT; } return counts.lights; }
 uint shadow_light_count() { if (SCENE_IS_KEPT == 1u) { return SHADOW_LIGHT_COUNT; } return counts.shadow_lights; }
 // Where a kind of shapes ends in the list; known is the constant.
-uint range_end(uint kind, uint known) { if (SCENE_IS_KEPT == 1u) { return known; } return counts.list_ends[kind]; }
-uint range_begin(uint kind, uint known) { return kind == 0u ? 0u : range_end(kind - 1u, known); }
+uint range_end(const uint kind, const uint known) {
+    return SCENE_IS_KEPT == 1u ? known : counts.list_ends[kind];
+}
+uint range_begin(const uint kind, const uint known) { return kind == 0u ? 0u : range_end(kind - 1u, known); }
 
-void fetch_record(uint index, out uvec4 record[3]) {
+void fetch_record(const uint index, out uvec4 record[3]) {
     int at = int(3u * index);
     record[0] = texelFetch(records, at);
     record[1] = texelFetch(records, at + 1);
@@ -73,7 +72,7 @@ void fetch_record(uint index, out uvec4 record[3]) {
 
 // The number of a node's children, from the last word of its first texel. In a shape's record this word is the index of
 // the material, which is too small to reach the upper byte.
-uint child_count(uint exponents_and_child_count) {
+uint child_count(const uint exponents_and_child_count) {
     return exponents_and_child_count >> 24u;
 }
 
@@ -82,7 +81,7 @@ uint child_count(uint exponents_and_child_count) {
 // Where branches are only masked, a node also goes through the arithmetic of a shape. Its packed bytes would be
 // denormal floats there, and Intel's processors take about a hundred times as long for an operation on one. So
 // the integers of a node lie where a shape has integers too, or are cleared before they are taken for floats.
-ShapeRecord to_shape(uvec4 record[3]) {
+ShapeRecord to_shape(const uvec4 record[3]) {
     // All ones for a shape, zero for a node. This is written without a comparison: a compiler that recognizes the
     // condition of the branch that the call stands in takes it for true, and leaves the mask out.
     uint if_shape = uint(int(child_count(record[0].w)) - 1 >> 31);
@@ -92,13 +91,13 @@ ShapeRecord to_shape(uvec4 record[3]) {
     );
 }
 
-ShapeRecord fetch_shape(uint index) {
+ShapeRecord fetch_shape(const uint index) {
     uvec4 record[3];
     fetch_record(index, record);
     return to_shape(record);
 }
 
-vec3 fetch_velocity(uint index) {
+vec3 fetch_velocity(const uint index) {
     return uintBitsToFloat(texelFetch(velocities, int(index)).xyz);
 }
 
@@ -128,13 +127,23 @@ void keep_scene() {
     kept_environment = environment;
 }
 
-ShapeRecord get_listed(uint i) { if (SCENE_IS_KEPT == 1u) { return kept_shapes[i]; } return fetch_shape(list_begin() + i); }
-vec3 get_velocity(uint i, ShapeRecord shape) { if (SCENE_IS_KEPT == 1u) { return kept_velocities[i]; } return fetch_velocity(shape.index); }
-Light get_light(uint i) { if (SCENE_IS_KEPT == 1u) { return kept_lights[i]; } return lights[i]; }
+ShapeRecord get_listed(const uint i) {
+    if (SCENE_IS_KEPT == 1u) {
+        return kept_shapes[i];
+    }
+    return fetch_shape(list_begin() + i);
+}
+vec3 get_velocity(const uint i, const ShapeRecord shape) {
+    if (SCENE_IS_KEPT == 1u) {
+        return kept_velocities[i];
+    }
+    return fetch_velocity(shape.index);
+}
+Light get_light(const uint i) { if (SCENE_IS_KEPT == 1u) { return kept_lights[i]; } return lights[i]; }
 Environment get_environment() { if (SCENE_IS_KEPT == 1u) { return kept_environment; } return environment; }
 
 // The index differs from invocation to invocation, so the copies are gone through instead of indexed.
-Material get_material(uint index) {
+Material get_material(const uint index) {
     if (SCENE_IS_KEPT == 0u) {
         return materials[index];
     }

@@ -17,7 +17,7 @@ struct SurfacePoint {
 
 // The point where the ray meets a surface. The normals point as those of the shape do: face_forward() turns them, and
 // moves offset_position off the surface.
-SurfacePoint surface_point(Ray ray, Hit hit) {
+SurfacePoint surface_point(const Ray ray, const Hit hit) {
     SurfacePoint at;
     at.position = ray.origin + hit.distance * ray.direction;
     at.normal = project_onto_surface(hit.surface, at.position, at.error);

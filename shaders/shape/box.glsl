@@ -17,7 +17,7 @@ struct Slabs {
     float far;
 };
 
-Slabs slabs_of(Ray ray, vec3 inverse_direction, ShapeRecord box) {
+Slabs slabs_of(const Ray ray, const vec3 inverse_direction, const ShapeRecord box) {
     Slabs slabs;
     bvec3 upwards = greaterThan(inverse_direction, vec3(0.0));
     slabs.front = mix(box.a, box.position, upwards);
@@ -29,14 +29,14 @@ Slabs slabs_of(Ray ray, vec3 inverse_direction, ShapeRecord box) {
     return slabs;
 }
 
-float box_distance(Ray ray, vec3 inverse_direction, ShapeRecord box) {
+float box_distance(const Ray ray, const vec3 inverse_direction, const ShapeRecord box) {
     Slabs slabs = slabs_of(ray, inverse_direction, box);
     float distance = slabs.near > 0.0 ? slabs.near : slabs.far;
     return slabs.near <= slabs.far && slabs.far > 0.0 ? distance : MISS;
 }
 
 // The face that the ray meets. Its normal points outwards along an axis.
-Surface box_surface(Ray ray, vec3 inverse_direction, ShapeRecord box, vec3 position) {
+Surface box_surface(const Ray ray, const vec3 inverse_direction, const ShapeRecord box, const vec3 position) {
     Slabs slabs = slabs_of(ray, inverse_direction, box);
     bool outside = slabs.near > 0.0;
     vec3 axis = outside ? vec3(equal(slabs.enter, vec3(slabs.near))) : vec3(equal(slabs.leave, vec3(slabs.far)));
@@ -49,7 +49,7 @@ Surface box_surface(Ray ray, vec3 inverse_direction, ShapeRecord box, vec3 posit
     return Surface(axis, offset, false, 0.0, vec3(0.0), uv);
 }
 
-void move_box(inout ShapeRecord box, vec3 displacement) {
+void move_box(inout ShapeRecord box, const vec3 displacement) {
     box.position += displacement;
     box.a += displacement;
 }

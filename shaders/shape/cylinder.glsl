@@ -8,12 +8,12 @@
 #include "shape/record.glsl"
 
 // The component of a vector that is perpendicular to the axis.
-vec3 perpendicular_to_axis(ShapeRecord cylinder, vec3 vector) {
+vec3 perpendicular_to_axis(const ShapeRecord cylinder, const vec3 vector) {
     return vector - dot(vector, cylinder.a) * cylinder.a;
 }
 
 // The equation is that of the sphere, in the plane perpendicular to the axis.
-float cylinder_distance(Ray ray, vec3 inverse_direction, ShapeRecord cylinder) {
+float cylinder_distance(const Ray ray, const vec3 inverse_direction, const ShapeRecord cylinder) {
     vec3 to_origin = ray.origin - cylinder.position;
     vec3 origin = perpendicular_to_axis(cylinder, to_origin);
     vec3 direction = perpendicular_to_axis(cylinder, ray.direction);
@@ -34,7 +34,7 @@ float cylinder_distance(Ray ray, vec3 inverse_direction, ShapeRecord cylinder) {
     return squared > 1e-12 && discriminant > 0.0 && (meets_near || meets_far) ? distance : MISS;
 }
 
-Surface cylinder_surface(Ray ray, vec3 inverse_direction, ShapeRecord cylinder, vec3 position) {
+Surface cylinder_surface(const Ray ray, const vec3 inverse_direction, const ShapeRecord cylinder, const vec3 position) {
     vec3 from_middle = position - cylinder.position;
     vec3 from_axis = perpendicular_to_axis(cylinder, from_middle);
     vec2 turned = tangent_coordinates(cylinder.a, from_axis);
@@ -43,7 +43,7 @@ Surface cylinder_surface(Ray ray, vec3 inverse_direction, ShapeRecord cylinder, 
     return Surface(from_axis, cylinder.b.x, true, cylinder.b.x + cylinder.b.y, vec3(0.0), uv);
 }
 
-void move_cylinder(inout ShapeRecord cylinder, vec3 displacement) {
+void move_cylinder(inout ShapeRecord cylinder, const vec3 displacement) {
     cylinder.position += displacement;
 }
 

@@ -6,13 +6,13 @@
 
 #include "shape/record.glsl"
 
-float plane_distance(Ray ray, vec3 inverse_direction, ShapeRecord plane) {
+float plane_distance(const Ray ray, const vec3 inverse_direction, const ShapeRecord plane) {
     float cosine = dot(plane.position, ray.direction);
     float distance = (plane.a.x - dot(plane.position, ray.origin)) / cosine;
     return cosine != 0.0 && distance > 0.0 && distance < MISS ? distance : MISS;
 }
 
-Surface plane_surface(Ray ray, vec3 inverse_direction, ShapeRecord plane, vec3 position) {
+Surface plane_surface(const Ray ray, const vec3 inverse_direction, const ShapeRecord plane, const vec3 position) {
     return Surface(plane.position, plane.a.x, false, 0.0, vec3(0.0), tangent_coordinates(plane.position, position));
 }
 

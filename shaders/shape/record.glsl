@@ -40,7 +40,7 @@ struct Surface {
 // The coordinates of a vector along two tangents, which are perpendicular to a unit normal. They are the world's axes x
 // and z, turned as the normal is turned from the vertical. T. Duff et al., "Building an Orthonormal Basis, Revisited",
 // JCGT 6(1), 2017, with y upwards.
-vec2 tangent_coordinates(vec3 n, vec3 vector) {
+vec2 tangent_coordinates(const vec3 n, const vec3 vector) {
     float up = n.y < 0.0 ? -1.0 : 1.0;
     float a = -1.0 / (up + n.y);
     float b = n.x * n.z * a;

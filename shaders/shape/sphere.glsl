@@ -8,7 +8,7 @@
 
 // The quadratic equation is solved with a discriminant from the point of closest approach, which is precise even for
 // small and distant spheres: E. Haines et al., Ray Tracing Gems, chapter 7.
-float sphere_distance(Ray ray, vec3 inverse_direction, ShapeRecord sphere) {
+float sphere_distance(const Ray ray, const vec3 inverse_direction, const ShapeRecord sphere) {
     float radius = sphere.a.x;
     vec3 to_origin = ray.origin - sphere.position;
     float along = -dot(to_origin, ray.direction);
@@ -21,14 +21,14 @@ float sphere_distance(Ray ray, vec3 inverse_direction, ShapeRecord sphere) {
     return discriminant > 0.0 && distance > 0.0 ? distance : MISS;
 }
 
-Surface sphere_surface(Ray ray, vec3 inverse_direction, ShapeRecord sphere, vec3 position) {
+Surface sphere_surface(const Ray ray, const vec3 inverse_direction, const ShapeRecord sphere, const vec3 position) {
     float radius = sphere.a.x;
     vec3 from_centre = position - sphere.position;
     vec2 uv = vec2(0.5 + atan(from_centre.z, from_centre.x) / 6.28318531, 0.5 + asin(clamp(from_centre.y / radius, -1.0, 1.0)) / 3.14159265);
     return Surface(from_centre, radius, true, radius, vec3(0.0), uv);
 }
 
-void move_sphere(inout ShapeRecord sphere, vec3 displacement) {
+void move_sphere(inout ShapeRecord sphere, const vec3 displacement) {
     sphere.position += displacement;
 }
 

@@ -15,7 +15,7 @@ layout(set = 0, binding = BINDING_CORNER_NORMALS) uniform usamplerBuffer corner_
 layout(constant_id = ID_HAS_CORNER_NORMALS) const uint HAS_CORNER_NORMALS = 0u;
 
 // T. Moeller and B. Trumbore, JGT 2(1), 1997, for both sides. barycentric belongs to the second and third corner.
-float intersect_triangle(Ray ray, ShapeRecord triangle, out vec2 barycentric) {
+float intersect_triangle(const Ray ray, const ShapeRecord triangle, out vec2 barycentric) {
     vec3 h = cross(ray.direction, triangle.b);
     float determinant = dot(triangle.a, h);
     float inverse_determinant = 1.0 / determinant;
@@ -30,14 +30,14 @@ float intersect_triangle(Ray ray, ShapeRecord triangle, out vec2 barycentric) {
     return determinant != 0.0 && b1 >= 0.0 && b2 >= 0.0 && b1 + b2 <= 1.0 && distance > 0.0 && distance < MISS ? distance : MISS;
 }
 
-float triangle_distance(Ray ray, vec3 inverse_direction, ShapeRecord triangle) {
+float triangle_distance(const Ray ray, const vec3 inverse_direction, const ShapeRecord triangle) {
     vec2 barycentric;
     return intersect_triangle(ray, triangle, barycentric);
 }
 
 // The unit shading normal of a triangle with normals at its corners. It is interpolated linearly and lies on the same
 // side as the triangle's own normal, which replaces it where the corner normals cancel out.
-vec3 interpolated_normal(uint index, vec2 barycentric, vec3 own) {
+vec3 interpolated_normal(const uint index, const vec2 barycentric, const vec3 own) {
     vec3 sum = vec3(0.0);
     vec3 weights = vec3(1.0 - barycentric.x - barycentric.y, barycentric);
     [[unroll]] for (uint corner = 0u; corner < 3u; ++corner) {
@@ -47,7 +47,7 @@ vec3 interpolated_normal(uint index, vec2 barycentric, vec3 own) {
     return normalize(dot(sum, own) < 0.0 ? -sum : sum);
 }
 
-Surface triangle_surface(Ray ray, vec3 inverse_direction, ShapeRecord triangle, vec3 position) {
+Surface triangle_surface(const Ray ray, const vec3 inverse_direction, const ShapeRecord triangle, const vec3 position) {
     vec3 normal = cross(triangle.a, triangle.b);
     vec3 longest = max(abs(triangle.a), abs(triangle.b));
     float size = larger(longest.x, larger(longest.y, longest.z));
@@ -61,7 +61,7 @@ Surface triangle_surface(Ray ray, vec3 inverse_direction, ShapeRecord triangle, 
     return Surface(normal, offset, false, size, shading_normal, barycentric);
 }
 
-void move_triangle(inout ShapeRecord triangle, vec3 displacement) {
+void move_triangle(inout ShapeRecord triangle, const vec3 displacement) {
     triangle.position += displacement;
 }
 

@@ -9,7 +9,7 @@
 
 // The position is lowered by as much as it may be off, and by the rounding error of the phase, which is up to two
 // cells.
-vec3 checker_value(Texture of, SurfacePoint at) {
+vec3 checker_value(const Texture of, const SurfacePoint at) {
     vec3 position = at.rest_position;
     position -= at.error + 2.0 * ROUNDING / of.inverse_size;
     if (SCENE_IS_SHIFTED == 1u) {

@@ -5,7 +5,7 @@
 
 #include "scene/surface.glsl"
 
-vec3 constant_value(Texture of, SurfacePoint at) {
+vec3 constant_value(const Texture of, const SurfacePoint at) {
     return of.color;
 }
 
