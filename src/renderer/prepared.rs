@@ -120,34 +120,41 @@ impl Preparer {
             ApertureBuffers::new(device, &keys.aperture.as_ref().map(aperture_sums).unwrap_or_default())
         })?;
 
+        // A driver compiles a pipeline on the thread that asks for it. The passes that trace rays take longest.
         let same_scene = old.filter(|old| old.scene.constants() == scene.constants());
-        let same = same_scene.filter(|old| old.keys.lens == keys.lens);
-        let trace = share_or(same.map(|old| &old.trace), || {
-            Trace::new(device, shaders.trace, &keys.lens, &scene, tile)
-        })?;
-        let pick = share_or_if(keys.answers, same.and_then(|old| old.pick.as_ref()), || {
-            Pick::new(device, shaders.pick, &keys.lens, &scene, tile)
-        })?;
-        let geometry =
-            share_or_if(keys.shows_surface, same_scene.and_then(|old| old.geometry.as_ref()), || {
-                Geometry::new(device, shaders.geometry, &scene)
-            })?;
-
-        let same = old.filter(|old| old.keys.film == keys.film);
-        let accumulate = share_or(same.map(|old| &old.accumulate), || {
-            Accumulate::new(device, shaders.accumulate, &keys.film, tile)
-        })?;
-        let select = share_or_if(keys.is_adaptive, same.and_then(|old| old.select.as_ref()), || {
-            Select::new(device, shaders.select, &keys.film)
-        })?;
-
-        let same = old.filter(|old| old.keys.overlay == keys.overlay);
-        let resolve_overlay = match keys.overlay {
-            Some(kind) => Some(share_or(same.and_then(|old| old.resolve_overlay.as_ref()), || {
-                Resolve::new(device, shaders.resolve, kind)
-            })?),
-            None => None,
-        };
+        let same_lens = same_scene.filter(|old| old.keys.lens == keys.lens);
+        let same_film = old.filter(|old| old.keys.film == keys.film);
+        let same_overlay = old.filter(|old| old.keys.overlay == keys.overlay);
+        let (trace, pick, geometry, accumulate, select, resolve_overlay) = std::thread::scope(|scope| {
+            let trace = scope.spawn(|| {
+                share_or(same_lens.map(|old| &old.trace), || {
+                    Trace::new(device, shaders.trace, &keys.lens, &scene, tile)
+                })
+            });
+            let pick = scope.spawn(|| {
+                share_or_if(keys.answers, same_lens.and_then(|old| old.pick.as_ref()), || {
+                    Pick::new(device, shaders.pick, &keys.lens, &scene, tile)
+                })
+            });
+            let geometry =
+                share_or_if(keys.shows_surface, same_scene.and_then(|old| old.geometry.as_ref()), || {
+                    Geometry::new(device, shaders.geometry, &scene)
+                });
+            let accumulate = share_or(same_film.map(|old| &old.accumulate), || {
+                Accumulate::new(device, shaders.accumulate, &keys.film, tile)
+            });
+            let select = share_or_if(keys.is_adaptive, same_film.and_then(|old| old.select.as_ref()), || {
+                Select::new(device, shaders.select, &keys.film)
+            });
+            let resolve_overlay = keys.overlay.map(|kind| {
+                share_or(same_overlay.and_then(|old| old.resolve_overlay.as_ref()), || {
+                    Resolve::new(device, shaders.resolve, kind)
+                })
+            });
+            (joined(trace), joined(pick), geometry, accumulate, select, resolve_overlay.transpose())
+        });
+        let (trace, pick, geometry) = (trace?, pick?, geometry?);
+        let (accumulate, select, resolve_overlay) = (accumulate?, select?, resolve_overlay?);
         Ok(Prepared { keys, scene, aperture, trace, accumulate, select, resolve_overlay, geometry, pick })
     }
 
@@ -184,6 +191,11 @@ impl Prepared {
     pub fn answers(&self) -> bool {
         self.keys.answers
     }
+}
+
+/// What the thread returns. A panic goes on in this one.
+fn joined<T>(thread: std::thread::ScopedJoinHandle<'_, T>) -> T {
+    thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
 }
 
 /// Shares the part if there is one, or else makes it.
