@@ -6,7 +6,7 @@ use common::{Gpu, decode_png, run};
 use std::path::Path;
 use thinlens::output::{self, Origin};
 
-use thinlens::scene::{self, SceneRef};
+use thinlens::scene::{self, SceneRef, Tolerance};
 use thinlens::settings::{Access, Settings, Value, Widget, list};
 
 /// Every option that changes a picture, in groups that go together.
@@ -190,6 +190,8 @@ fn changed(scene: &SceneRef, random: &mut fastrand::Rng) -> Settings {
             }
             Access::Size(..) => Value::Size([random.u32(1..999), random.u32(1..999)]),
             Access::Choice(_, choices) => Value::Name(random.choice(choices()).expect("a choice").name),
+            Access::Tolerance(_) if random.bool() => Value::Tolerance(Tolerance::Film(random.f32() + 0.001)),
+            Access::Tolerance(_) => Value::Tolerance(Tolerance::Pixels(random.f32() + 0.1)),
             Access::Image(_) => continue,
         };
         setting.set(&mut settings, &value).expect("no image");

@@ -8,9 +8,8 @@ use common::probe::probe;
 use common::{Gpu, prove, settings_of};
 use glam::{DVec2, DVec3, Vec3};
 use thinlens::gpu_types::Camera;
-use thinlens::scene::Preset;
-use thinlens::scene::{CameraModel, Hole};
-use thinlens::settings::{Called, Estimator, Value, list};
+use thinlens::scene::{CameraModel, Hole, Overlay, Preset, SceneRef, Tolerance};
+use thinlens::settings::{Called, Estimator, Settings, Value, list};
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
@@ -347,4 +346,35 @@ fn the_depth_of_field_ends_where_the_blur_reaches_the_tolerance() {
     assert!(far.is_infinite() && (near / hyperfocal - 0.5).abs() < 1e-3, "{near} to {far}");
     estimator.lens.diameter = 0.0;
     assert_eq!(estimator.camera.depth_of_field(&estimator.lens, 1.0, 720), [0.0, f64::INFINITY]);
+}
+
+/// Catches a depth of field that depends on the size of the picture although its tolerance is a length on the film, and
+/// one that does not follow a tolerance in pixels.
+#[test]
+fn the_depth_of_field_is_that_of_the_film_at_every_size() {
+    let scene = thinlens::scene::load("version-4").expect("a built-in scene");
+    let mut settings = Settings::of_scene(SceneRef::new(scene));
+    settings.view.overlay = Some(Overlay::FocusPeaking);
+    let mut seen = Vec::new();
+    for size in [[1280, 720], [1920, 1061], [2560, 1581]] {
+        settings.estimator.size = size;
+        settings.view.tolerance = Tolerance::Film(0.03);
+        // On film v behind the lens: 1 / near = 1 / F + c / (D v), and D v / c is the hyperfocal distance.
+        let Estimator { camera, lens, .. } = &settings.estimator;
+        let (diameter, focused) = (f64::from(lens.diameter), f64::from(lens.focal_distance));
+        let hyperfocal = diameter * 12.0 / (camera.vfov_radians / 2.0).tan() / f64::from(0.03_f32);
+        let limits = [1.0, -1.0].map(|side| (focused.recip() + side / hyperfocal).recip());
+        let got = [settings.depth_of_field(), [settings.hyperfocal_distance(); 2]].concat();
+        for (got, expected) in got.iter().zip([limits, [hyperfocal; 2]].concat()) {
+            assert!((got / expected - 1.0).abs() < 1e-12, "{size:?}: {got}, not {expected}");
+        }
+        // Focus peaking marks what is sharp by the same measure.
+        let share = settings.overlay_scale(Overlay::FocusPeaking) / size[1] as f32;
+        assert!((share - 0.03 / 24.0).abs() < 1e-8, "{size:?}: {share} of the height");
+
+        settings.view.tolerance = Tolerance::Pixels(1.0);
+        assert_eq!(settings.overlay_scale(Overlay::FocusPeaking), 1.0);
+        seen.push(settings.hyperfocal_distance());
+    }
+    assert!((seen[1] / seen[0] - 1061.0 / 720.0).abs() < 1e-12, "{seen:?}");
 }

@@ -8,7 +8,7 @@ use common::{Gpu, circle_of_confusion, pixels, plain_scene_of, prove, small};
 use glam::DVec3;
 use thinlens::reference::{Reference, tone};
 use thinlens::renderer::Renderer;
-use thinlens::scene::{CameraModel, Hole, Overlay, SceneRef, Shape};
+use thinlens::scene::{CameraModel, Hole, Overlay, SceneRef, Shape, Tolerance};
 use thinlens::settings::Settings;
 
 /// What each pixel's middle sees, as the oracle says: the depth, and the normal in the world's frame.
@@ -91,7 +91,7 @@ fn expected(
             mix([1.0; 3], if blur < 0.0 { [0.02, 0.22, 1.0] } else { [1.0, 0.2, 0.01] }, share)
         }
         Overlay::FocusPeaking => {
-            let sharp = blur.abs() <= f64::from(settings.view.tolerance);
+            let sharp = blur.abs() <= 1.5;
             mix(picture, [0.05, 1.0, 0.1], if sharp { 0.6 } else { 0.0 })
         }
         Overlay::FocalPlane => {
@@ -121,7 +121,7 @@ fn overlays_show_what_each_pixel_sees() {
     let mut smooth = Settings::of_scene(everything_smooth());
     (smooth.estimator.size, smooth.samples) = ([64, 48], 4);
     let mut settings = vec![small("version-4"), nearer, turned, hole, smooth, pinhole];
-    settings.iter_mut().for_each(|settings| settings.view.tolerance = 1.5);
+    settings.iter_mut().for_each(|settings| settings.view.tolerance = Tolerance::Pixels(1.5));
     let check = |gpu: &Gpu| -> Result<String> {
         let mut renderer = gpu.renderer(&settings[0]);
         let (mut count, mut all_differ, mut marked) = (0, 0, 0);

@@ -4,7 +4,7 @@ use glam::Vec3;
 use thinlens::error::Error;
 use thinlens::scene::{
     self, BUILTINS, Box, CameraModel, Checker, LightKind, Matte, Overlay, Phong, Plane, SceneRef, Sphere,
-    Texture, Triangle, View,
+    Texture, Tolerance, Triangle, View,
 };
 use thinlens::settings::Settings;
 
@@ -96,7 +96,7 @@ fn a_file_says_how_the_picture_is_shown_and_with_which_lens() {
         exposure_stops: -1.5,
         exposure_lock: false,
         overlay: Some(Overlay::Depth),
-        tolerance: 2.0,
+        tolerance: Tolerance::Pixels(2.0),
         ..View::default()
     };
     assert_eq!(scene.view, view);

@@ -6,7 +6,7 @@ use common::run;
 use std::path::Path;
 use thinlens::error::Error;
 use thinlens::output;
-use thinlens::scene::{self, SceneRef};
+use thinlens::scene::{self, SceneRef, TOLERANCES_MM, TOLERANCES_PIXELS, Tolerance};
 use thinlens::settings::{Access, Called, Changes, Role, Setting, Settings, Value, Widget, list};
 
 fn plain() -> Settings {
@@ -49,6 +49,7 @@ fn another(setting: &Setting, now: &Value, folder: &Path) -> Value {
             names.sort_by_key(|name| name.starts_with("50mm"));
             Value::Name(names.into_iter().rev().find(|name| name != now).expect("another name"))
         }
+        (Access::Tolerance(_), Value::Tolerance(_)) => Value::Tolerance(Tolerance::Pixels(2.5)),
         (Access::Image(_), Value::File(None)) => Value::File(Some(image(folder))),
         (_, now) => panic!("--{} is {now:?}", setting.flag),
     }
@@ -71,6 +72,7 @@ fn out_of_range(setting: &Setting) -> Vec<String> {
             vec![format!("0,{},1", low * 2.0), format!("1,0,{}", high * 2.0), "NaN,0,0".into()]
         }
         Access::Size(_, [low, high]) => vec![format!("{}x9", low - 1), format!("9x{}", high + 1)],
+        Access::Tolerance(_) => ["0.05", "2000px", "NaN", "20mm", "0mm", "-1mm"].map(String::from).to_vec(),
         Access::Switch(_) | Access::Choice(..) | Access::Image(_) => Vec::new(),
     }
 }
@@ -143,6 +145,7 @@ fn scene_with(settings: &Settings, instead_of: &str, line: &str) -> String {
             Value::Size(size) => format!("{size:?}"),
             Value::Name("none") | Value::File(_) => continue,
             Value::Name(name) => format!("{name:?}"),
+            Value::Tolerance(tolerance) => format!("\"{tolerance}\""),
         };
         let line = if key.name == instead_of { line.into() } else { format!("{} = {value}", key.name) };
         let table = tables.iter_mut().find(|(name, _)| *name == key.table).expect("a table");
@@ -169,6 +172,7 @@ fn a_value_out_of_range_in_a_scene_file_is_refused_by_its_key() {
             let value = match setting.access {
                 Access::Size(..) => format!("[{}]", word.replace('x', ", ")),
                 Access::Vector(..) => format!("[{}]", word.to_lowercase()),
+                Access::Tolerance(_) if word.ends_with('m') || word.ends_with('x') => format!("{word:?}"),
                 _ => word.to_lowercase(),
             };
             let line = format!("{} = {value}", key.name);
@@ -286,7 +290,7 @@ fn each_row_fits_its_setting() {
                 [ticked, plain].into_iter().all(|number| (low..=high).contains(&f64::from(*number)))
             }
             Widget::Drag => matches!(setting.access, Access::Vector(..)),
-            Widget::Box | Widget::List => false,
+            Widget::Box | Widget::List | Widget::Length => false,
         };
         let fits = match &setting.access {
             Access::Single(_, range) | Access::Seconds(_, range) => within(range.map(f64::from)),
@@ -294,6 +298,7 @@ fn each_row_fits_its_setting() {
             Access::Whole(_, range) | Access::WholeOrZero(_, range, _) => within(range.map(f64::from)),
             Access::Switch(_) => matches!(row.widget, Widget::Box),
             Access::Choice(..) => matches!(row.widget, Widget::List),
+            Access::Tolerance(_) => matches!(row.widget, Widget::Length),
             Access::Size(..) | Access::Image(_) => false,
         };
         assert!(fits, "{}", row.label);
@@ -324,6 +329,9 @@ fn tables() -> String {
                 Access::Double(_, range) | Access::Vector(_, range) => (String::new(), span(*range)),
                 Access::Whole(_, range) | Access::Size(_, range) => (String::new(), span(*range)),
                 Access::WholeOrZero(_, range, _) => (String::new(), format!("0, {}", span(*range))),
+                Access::Tolerance(_) => {
+                    (String::new(), format!("{} mm, {} px", span(TOLERANCES_MM), span(TOLERANCES_PIXELS)))
+                }
                 Access::Switch(_) | Access::Image(_) => (String::new(), String::new()),
             };
             let value = if setting.value_name.is_empty() { "NAME" } else { setting.value_name };

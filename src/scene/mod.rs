@@ -35,7 +35,7 @@ pub use preset::{PRESETS, Preset};
 pub use range::*;
 pub use shape::*;
 pub use texture::*;
-pub use view::View;
+pub use view::{Tolerance, View};
 
 use glam::{DVec3, Vec3};
 use std::path::PathBuf;

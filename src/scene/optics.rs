@@ -4,7 +4,7 @@
 //! in focus. [`Camera::metres_per_unit`] relates millimetres to the lengths of the scene. Circles of confusion follow
 //! from similar triangles: K. Suffern, *Ray Tracing from the Ground Up*, section 10.1.
 
-use super::{Camera, Lens};
+use super::{Camera, Lens, Tolerance};
 
 /// Half the height of the frame in millimetres. A frame of 35 mm film is 36 mm wide and 24 mm high.
 const HALF_FRAME_MM: f64 = 12.0;
@@ -32,6 +32,19 @@ impl Camera {
     /// A length in scene units that is this long in millimetres.
     pub fn units_of_mm(&self, millimetres: f64) -> f64 {
         millimetres / 1000.0 / self.metres_per_unit
+    }
+
+    /// The length in millimetres of one scene unit.
+    pub fn mm_per_unit(&self) -> f64 {
+        1000.0 * self.metres_per_unit
+    }
+
+    /// A tolerance in pixels of a picture of this height.
+    pub fn tolerance_pixels(&self, tolerance: Tolerance, height: u32) -> f64 {
+        match tolerance {
+            Tolerance::Film(mm) => f64::from(mm) / FRAME_HEIGHT_MM * f64::from(height),
+            Tolerance::Pixels(pixels) => pixels.into(),
+        }
     }
 
     /// The f-number of a lens with this diameter in scene units. Infinite for a pinhole.

@@ -31,8 +31,10 @@ pub const SHUTTERS: [f32; 2] = [1e-6, 1e4];
 pub const ISOS: [f32; 2] = [0.1, 1e7];
 /// The exposure, in stops.
 pub const EXPOSURES: [f32; 2] = [-20.0, 20.0];
-/// The largest circle of confusion that counts as sharp, in pixels.
-pub const TOLERANCES: [f32; 2] = [0.01, 1000.0];
+/// The largest circle of confusion that counts as sharp, in millimetres on a film of 36 x 24 mm.
+pub const TOLERANCES_MM: [f32; 2] = [1e-4, 10.0];
+/// The same in pixels.
+pub const TOLERANCES_PIXELS: [f32; 2] = [0.1, 1000.0];
 
 /// Checks that a number is in a range. NaN is in no range.
 ///

@@ -18,7 +18,8 @@ pub use sweep::Sweep;
 
 use crate::error::{Error, Result};
 use crate::scene::{
-    Aperture, Camera, CameraModel, FullScale, Hole, Lens, Overlay, Preset, SceneRef, Source, View, in_range,
+    Aperture, Camera, CameraModel, FRAME_HEIGHT_MM, FullScale, Hole, Lens, Overlay, Preset, SceneRef, Source,
+    View, in_range,
 };
 use std::path::Path;
 
@@ -239,8 +240,30 @@ impl Settings {
             FullScale::Samples => self.samples as f32,
             FullScale::Number(number) => number,
             FullScale::HeightOver(part) => self.estimator.size[1] as f32 / part,
-            FullScale::Tolerance => self.view.tolerance,
+            FullScale::Tolerance => self.tolerance_pixels() as f32,
         }
+    }
+
+    /// The largest circle of confusion that counts as sharp, in pixels of the picture.
+    pub fn tolerance_pixels(&self) -> f64 {
+        self.estimator.camera.tolerance_pixels(self.view.tolerance, self.estimator.size[1])
+    }
+
+    /// The length in millimetres on the film of so many pixels of the picture.
+    pub fn mm_of_pixels(&self, pixels: f64) -> f64 {
+        pixels * FRAME_HEIGHT_MM / f64::from(self.estimator.size[1])
+    }
+
+    /// The depths between which the lens shows everything sharp, in scene units. The far one may be infinite.
+    pub fn depth_of_field(&self) -> [f64; 2] {
+        let Estimator { camera, lens, size, .. } = &self.estimator;
+        camera.depth_of_field(lens, self.tolerance_pixels(), size[1])
+    }
+
+    /// The hyperfocal distance of the lens, in scene units.
+    pub fn hyperfocal_distance(&self) -> f64 {
+        let Estimator { camera, lens, size, .. } = &self.estimator;
+        camera.hyperfocal_distance(lens, self.tolerance_pixels(), size[1])
     }
 
     /// The brightness of the picture relative to the scene with its own lens, shutter and film. It is proportional to

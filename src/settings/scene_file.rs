@@ -4,7 +4,7 @@ use super::arguments::quoted;
 use super::setting::NONE;
 use super::{Key, Role, Setting, Settings, Value, list};
 use crate::error::{Error, Result};
-use crate::scene::{self, EXPOSURES, Loaded, SceneRef, in_range};
+use crate::scene::{self, EXPOSURES, Loaded, SceneRef, Tolerance, in_range};
 use std::path::{Path, PathBuf};
 use toml_edit::{Array, DocumentMut, Item, TableLike, value};
 
@@ -125,6 +125,8 @@ fn item(is: &Value, files: &Files) -> Result<Option<Item>> {
         Value::Size(size) => list(size.map(i64::from)),
         Value::Name(NONE) | Value::File(None) => return Ok(None),
         Value::Name(name) => value(*name),
+        Value::Tolerance(Tolerance::Pixels(pixels)) => value(digits(*pixels)),
+        Value::Tolerance(tolerance) => value(tolerance.to_string()),
         Value::File(Some(file)) => value(files.seen(file)?),
     }))
 }

@@ -2,7 +2,7 @@
 
 use super::Settings;
 use crate::error::{Error, Result};
-use crate::scene::{ApertureImage, in_range, in_range_or_zero};
+use crate::scene::{ApertureImage, Tolerance, in_range, in_range_or_zero};
 use glam::DVec3;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -87,6 +87,8 @@ pub enum Access {
     Choice(Field<&'static str>, fn() -> Vec<Choice>),
     /// An image file, or none.
     Image(Field<Option<ApertureImage>>),
+    /// A length on the film or in the picture, which is as much blur as counts as sharp.
+    Tolerance(Field<Tolerance>),
 }
 
 /// One of the choices of a setting.
@@ -146,6 +148,8 @@ pub enum Widget {
     List,
     /// Three numbers that can be dragged.
     Drag,
+    /// A slider and a list of units.
+    Length,
 }
 
 /// The range and the scale of a slider.
@@ -179,6 +183,8 @@ pub enum Value {
     Name(&'static str),
     /// For [`Access::Image`]: the file.
     File(Option<PathBuf>),
+    /// For [`Access::Tolerance`].
+    Tolerance(Tolerance),
 }
 
 /// Where the user gives a setting. This decides what an error calls it.
@@ -216,6 +222,7 @@ impl Setting {
             Access::Size(field, _) => Value::Size((field.get)(settings)),
             Access::Choice(field, _) => Value::Name((field.get)(settings)),
             Access::Image(field) => Value::File((field.get)(settings).map(|image| image.file.clone())),
+            Access::Tolerance(field) => Value::Tolerance((field.get)(settings)),
         }
     }
 
@@ -240,6 +247,7 @@ impl Setting {
                 let image = file.as_deref().map(ApertureImage::read).transpose()?;
                 (field.set)(settings, image);
             }
+            (Access::Tolerance(field), Value::Tolerance(value)) => (field.set)(settings, *value),
             (_, other) => unreachable!("{} is never {other:?}", self.flag),
         }
         Ok(())
@@ -268,6 +276,7 @@ impl Setting {
                     .map_err(of("width"))
                     .and_then(|()| in_range(*height, *range).map_err(of("height")))
             }
+            (Access::Tolerance(_), Value::Tolerance(value)) => value.check(),
             _ => Ok(()),
         };
         checked.map_err(|reason| Error::OutOfRange(format!("{} {reason}", self.name(called))))
@@ -306,6 +315,7 @@ impl Setting {
                 "there is none of this name",
             ),
             Access::Image(_) => (Some(file(Path::new(text))), ""),
+            Access::Tolerance(_) => return Ok(Value::Tolerance(text.parse()?)),
         };
         value.ok_or_else(|| right.into())
     }

@@ -10,6 +10,7 @@ mod overlay;
 mod paper;
 mod rows;
 mod sampling;
+mod tolerance;
 mod widgets;
 
 use super::diagram::Diagram;

@@ -2,20 +2,18 @@
 
 use crate::app::panel::Panel;
 use crate::renderer::Picked;
-use crate::scene::{CameraModel, FRAME_HEIGHT_MM};
+use crate::scene::CameraModel;
 use imgui::Ui;
 
 impl Panel {
     pub(super) fn numbers(&self, ui: &Ui, picked: Option<&Picked>) {
         let estimator = &self.settings.estimator;
-        let tolerance = f64::from(self.settings.view.tolerance);
         let (camera, lens, height) = (&estimator.camera, &estimator.lens, estimator.size[1]);
         ui.text(format!("{:.0} mm on a 24 mm high frame", camera.focal_length_mm()));
         if estimator.model == CameraModel::ThinLens {
-            let [near, far] = camera.depth_of_field(lens, tolerance, height);
-            let hyperfocal = camera.hyperfocal_distance(lens, tolerance, height);
+            let [near, far] = self.settings.depth_of_field();
             ui.text(format!("sharp from {} to {}", length(near), length(far)));
-            ui.text(format!("hyperfocal distance {}", length(hyperfocal)));
+            ui.text(format!("hyperfocal distance {}", length(self.settings.hyperfocal_distance())));
         }
         let Some(picked) = picked else {
             ui.text_disabled("point at something to see its blur");
@@ -30,7 +28,7 @@ impl Panel {
         ui.text(format!("{}, {} away", surface.material, length(surface.depth)));
         if estimator.model == CameraModel::ThinLens {
             let pixels = camera.circle_of_confusion(lens, surface.depth, height);
-            let millimetres = pixels.abs() * FRAME_HEIGHT_MM / f64::from(height);
+            let millimetres = self.settings.mm_of_pixels(pixels.abs());
             let side = if pixels < 0.0 { "in front" } else { "behind" };
             ui.text(format!("blurred over {:.2} px ({millimetres:.3} mm), {side}", pixels.abs()));
         } else {

@@ -1,5 +1,6 @@
 //! The rows of the panel, made from the list of settings.
 
+use super::tolerance::tolerance;
 use super::widgets::{Layout, combo, named, note_item, tooltip};
 use crate::scene::PLACES;
 use crate::settings::{Access, Choice, Field, Part, Row, Setting, Settings, Slider, Widget, list};
@@ -58,6 +59,7 @@ fn draw(
         (Widget::Drag, Access::Vector(field, _)) => {
             named(ui, label, help, layout, |id| drag(ui, id, field, settings));
         }
+        (Widget::Length, Access::Tolerance(field)) => tolerance(ui, row, field, settings, layout),
         _ => {}
     }
 }

@@ -183,6 +183,7 @@ fn value_of(table: Option<&str>, key: &str) -> &'static str {
         (_, "material" | "file" | "preset" | "model" | "overlay" | "aperture_image") => {
             "a name in quotes, such as \"name\""
         }
+        (_, "tolerance") => "a text like \"0.03 mm\", or a number of pixels",
         (_, "shadows" | "upright" | "exposure_lock") => "true or false, without quotes",
         (_, "blades" | "max_bounces") => "a whole number, 0 or more",
         _ => "a number",

@@ -2,7 +2,7 @@
 
 use super::error::{ParseError, named};
 use super::number::ranged;
-use crate::scene::{EXPOSURES, Overlay, TOLERANCES, View};
+use crate::scene::{EXPOSURES, Overlay, Tolerance, View};
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -12,7 +12,15 @@ pub(super) struct ViewTable {
     exposure: Option<Spanned<f32>>,
     exposure_lock: Option<bool>,
     overlay: Option<Spanned<String>>,
-    tolerance: Option<Spanned<f32>>,
+    tolerance: Option<Spanned<Written>>,
+}
+
+/// A tolerance: a number of pixels, or a text with a unit.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "a tolerance is a text like \"0.03 mm\", or a number of pixels")]
+enum Written {
+    Pixels(f32),
+    Text(String),
 }
 
 /// How the picture is shown by default.
@@ -27,7 +35,17 @@ pub(super) fn view(table: Option<&Spanned<ViewTable>>) -> Result<View, ParseErro
             .unwrap_or(plain.exposure_stops),
         exposure_lock: table.exposure_lock.unwrap_or(plain.exposure_lock),
         overlay: overlay.map(|name| named(&Overlay::NAMES, name, "overlay")).transpose()?,
-        tolerance: ranged("tolerance", table.tolerance.as_ref(), TOLERANCES)?.unwrap_or(plain.tolerance),
+        tolerance: table.tolerance.as_ref().map(tolerance).transpose()?.unwrap_or(plain.tolerance),
         ..plain
     })
+}
+
+fn tolerance(written: &Spanned<Written>) -> Result<Tolerance, ParseError> {
+    let tolerance = match written.get_ref() {
+        Written::Pixels(pixels) => Ok(Tolerance::Pixels(*pixels)),
+        Written::Text(text) => text.parse(),
+    };
+    let tolerance = tolerance.map_err(|message: &str| ParseError::at(written, message))?;
+    tolerance.check().map_err(|wrong| ParseError::at(written, &format!("tolerance {wrong}")))?;
+    Ok(tolerance)
 }

@@ -1,7 +1,7 @@
 //! The brightness of the picture, and overlays.
 
 use super::{EVEN, LOGARITHMIC, camera, field, row, view};
-use crate::scene::{EXPOSURES, ISOS, OVERLAYS, Overlay, SHUTTERS, TOLERANCES};
+use crate::scene::{EXPOSURES, ISOS, OVERLAYS, Overlay, SHUTTERS};
 use crate::settings::setting::NONE;
 use crate::settings::{Access, Choice, Field, Part, Role, Setting, Slider, Widget, named};
 use std::borrow::Cow;
@@ -113,17 +113,18 @@ pub(super) static VIEW: &[Setting] = &[
     Setting {
         flag: "tolerance",
         letter: None,
-        value_name: "PX",
-        help: "The largest circle of confusion that counts as sharp, in pixels",
-        default: "the scene's, or 1",
+        value_name: "LENGTH",
+        help: "The largest circle of confusion that counts as sharp: a length on a film of 36 x 24 mm such as 0.03mm, or \
+               in pixels, such as 2px or 2. On the film, what is sharp does not depend on the size of the picture",
+        default: "the scene's, or 0.03mm",
         role: Role::View,
         key: view("tolerance"),
-        access: Access::Single(field!(view.tolerance), TOLERANCES),
+        access: Access::Tolerance(field!(view.tolerance)),
         row: row(
             Part::View,
             "Tolerance",
-            "The largest circle of confusion that counts as sharp.",
-            Widget::Slider(Slider { range: |_| [0.1, 30.0], format: |_| "%.2f px".into(), ..LOGARITHMIC }),
+            "The largest circle of confusion that counts as sharp. On the film, 0.03 mm is usual for 35 mm cameras, and what is sharp does not depend on the size of the window. In pixels, it does.",
+            Widget::Length,
         ),
     },
 ];

@@ -1,0 +1,58 @@
+//! The row of the tolerance: a number, and the list of its units.
+
+use super::widgets::{Layout, note_item, tooltip};
+use crate::scene::{TOLERANCES_MM, TOLERANCES_PIXELS, Tolerance};
+use crate::settings::{Field, Row, Settings};
+use imgui::{SliderFlags, Ui};
+
+/// The width of the list of units, in points.
+const UNIT_WIDTH: f32 = 64.0;
+
+/// Draws the row. Another unit keeps what is sharp in this picture.
+pub(super) fn tolerance(
+    ui: &Ui,
+    row: &Row,
+    field: &Field<Tolerance>,
+    settings: &mut Settings,
+    layout: &mut Layout,
+) {
+    let before = (field.get)(settings);
+    let pixels = settings.tolerance_pixels() as f32;
+    let mm = settings.mm_of_pixels(1.0) as f32 * pixels;
+    let mut now = before;
+    ui.text(row.label);
+    ui.set_next_item_width(-(UNIT_WIDTH + 4.0));
+    let (number, [low, high], format) = match &mut now {
+        Tolerance::Film(mm) => (mm, [0.001, 1.0], "%.3f"),
+        Tolerance::Pixels(pixels) => (pixels, [0.1, 30.0], "%.2f"),
+    };
+    let flags = SliderFlags::ALWAYS_CLAMP | SliderFlags::LOGARITHMIC | SliderFlags::NO_ROUND_TO_FORMAT;
+    let id = format!("##{}", row.label);
+    ui.slider_config(id, low, high).display_format(format).flags(flags).build(number);
+    note_item(ui, row.label, layout);
+    tooltip(ui, row.help);
+    ui.same_line_with_spacing(0.0, 4.0);
+    ui.set_next_item_width(-1.0);
+    let unit = if matches!(now, Tolerance::Film(_)) { "mm" } else { "pixels" };
+    match ui.begin_combo("##unit of the tolerance", unit) {
+        Some(_open) => {
+            let clamped = |value: f32, [low, high]: [f32; 2]| value.clamp(low, high);
+            for (name, of) in [
+                ("mm", Tolerance::Film(clamped(mm, TOLERANCES_MM))),
+                ("pixels", Tolerance::Pixels(clamped(pixels, TOLERANCES_PIXELS))),
+            ] {
+                if ui.selectable_config(name).selected(name == unit).build() && name != unit {
+                    now = of;
+                }
+                note_item(ui, name, layout);
+            }
+        }
+        None => {
+            note_item(ui, "Tolerance in", layout);
+            tooltip(ui, "Millimetres on the film, or pixels of the picture.");
+        }
+    }
+    if now != before {
+        (field.set)(settings, now);
+    }
+}
