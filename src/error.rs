@@ -95,6 +95,12 @@ pub enum Error {
         /// Similar names, or all names.
         hint: String,
     },
+    /// SCENE is a file or folder of another kind.
+    #[error(
+        "{}: a scene is a .toml file, and a mesh an .obj file; the viewer also opens pictures that thinlens saved, \
+         .png and .exr", .0.display()
+    )]
+    NotAScene(PathBuf),
     /// The name of the output ends in no known format.
     #[error("cannot write '{}': its name must end in .png or .exr", .0.display())]
     UnknownFormat(PathBuf),
@@ -190,6 +196,7 @@ impl Error {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::UnknownScene { .. }
+            | Self::NotAScene(_)
             | Self::UnknownFormat(_)
             | Self::OutOfRange(_)
             | Self::SameFile(_)

@@ -204,4 +204,8 @@ fn the_ending_decides_in_capitals_too() {
     scene::load(&path).expect("a scene");
     let error = scene::load(Path::new("scene.txt")).expect_err("no scene").to_string();
     assert!(error.contains("no scene 'scene.txt'"), "{error}");
+    let path = folder.path().join("photo.jpg");
+    std::fs::write(&path, SCENE).expect("a writable temporary folder");
+    let error = scene::load(&path).expect_err("no scene").to_string();
+    assert!(error.contains("photo.jpg: a scene is a .toml file") && !error.contains("no scene"), "{error}");
 }

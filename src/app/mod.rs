@@ -9,6 +9,7 @@ mod history;
 mod keys;
 mod loader;
 mod memory;
+mod message;
 mod navigate;
 mod panel;
 mod save_as;

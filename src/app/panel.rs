@@ -2,8 +2,8 @@
 
 use super::Options;
 use super::memory::Memory;
-use super::save_as::{Files, SaveAs};
-use super::telemetry;
+use super::message::Messages;
+use super::save_as::{self, Files, absolute};
 use crate::error::{Error, Result};
 use crate::output::{self, Origin, PictureFormat};
 use crate::scene::{self, ApertureImage, BUILTINS, SceneRef};
@@ -30,7 +30,7 @@ pub(super) struct Panel {
     pub(super) files: Files,
     /// A file or scene to open, which the loader does not know of yet.
     pub(super) to_open: Option<PathBuf>,
-    pub(super) message: Option<String>,
+    pub(super) messages: Messages,
     pub(super) optics: Optics,
     /// The picture that is held for comparison, if there is one.
     pub(super) held: Option<Held>,
@@ -74,11 +74,6 @@ pub(super) struct State {
     initial: Settings,
 }
 
-/// The absolute path of a file.
-fn absolute(file: &Path) -> PathBuf {
-    std::path::absolute(file).unwrap_or_else(|_| file.to_path_buf())
-}
-
 pub(super) fn builtin(name: &Path) -> Option<&'static str> {
     BUILTINS.iter().map(|builtin| builtin.name).find(|builtin| Path::new(builtin) == name)
 }
@@ -95,7 +90,7 @@ impl Panel {
             recent: options.memory.recent.clone(),
             files: Files::default(),
             to_open: None,
-            message: options.message.clone().or_else(|| options.settings.estimator.too_coarse()),
+            messages: Messages::default(),
             optics: Optics { open: options.memory.optics, ..Optics::default() },
             held: None,
             paused: false,
@@ -103,6 +98,10 @@ impl Panel {
             layout: Vec::new(),
         };
         panel.offer_scene();
+        match &options.message {
+            Some(message) => panel.messages.fail(message.clone()),
+            None => panel.warn(),
+        }
         panel
     }
 
@@ -127,10 +126,11 @@ impl Panel {
         (camera.eye, camera.look_at, camera.up) = (initial.eye, initial.look_at, initial.up);
     }
 
-    /// Shows a message until the next one.
-    pub(super) fn say(&mut self, message: String) {
-        log::debug!("{} {message}", telemetry::MESSAGE);
-        self.message = Some(message);
+    /// Says so if the picture cannot come out right.
+    fn warn(&mut self) {
+        if let Some(warning) = self.settings.estimator.too_coarse() {
+            self.messages.fail(warning);
+        }
     }
 
     /// What to remember for the next run.
@@ -170,7 +170,7 @@ impl Panel {
     pub(super) fn refuse(&mut self, error: &Error) {
         // If a number is out of range, the message calls it what the panel calls it.
         let own = self.settings.check_as(Called::Label).err();
-        self.say(own.as_ref().unwrap_or(error).to_string());
+        self.messages.fail(own.as_ref().unwrap_or(error).to_string());
         self.restore(self.accepted.clone());
     }
 
@@ -179,9 +179,19 @@ impl Panel {
         &self.accepted.settings
     }
 
+    /// Opens a file or a built-in scene whose name was typed.
+    pub(super) fn open_typed(&mut self, typed: &str) {
+        let name = Path::new(typed.trim());
+        if builtin(name).is_some() {
+            self.open(name);
+        } else if !name.as_os_str().is_empty() {
+            self.open(&save_as::typed(name));
+        }
+    }
+
     /// Opens a scene, a mesh, or a picture with its settings, as soon as the loader is free.
     pub(super) fn open(&mut self, name: &Path) {
-        self.message = None;
+        self.messages.close();
         self.to_open = Some(name.to_path_buf());
     }
 
@@ -192,7 +202,7 @@ impl Panel {
         self.initial = Settings { samples: settings.samples, ..initial };
         self.image = settings.estimator.aperture.image.clone().or(self.image.take());
         self.settings = settings;
-        self.message = self.settings.estimator.too_coarse().or(self.message.take());
+        self.warn();
         self.offer_scene();
         if builtin(name).is_none() {
             self.remember(name);
@@ -207,33 +217,32 @@ impl Panel {
         self.recent.truncate(MAX_RECENT);
     }
 
-    /// The name of the file to save the picture to.
-    pub(super) fn picture_file(&mut self) -> String {
+    /// The file to save the picture to.
+    pub(super) fn picture_file(&mut self) -> PathBuf {
         self.files.picture.file()
     }
 
     /// Reports that the picture was saved, and chooses a new name for the next one.
-    pub(super) fn picture_is_saved(&mut self) {
-        let SaveAs { file, .. } = &self.files.picture;
-        let (said, next) = (format!("saved {file}"), SaveAs::new(file));
-        self.files.picture = next;
-        self.say(said);
+    pub(super) fn picture_is_saved(&mut self, file: &Path) {
+        self.files.picture.suggest_next();
+        self.messages.say(format!("saved {}", file.display()));
     }
 
     /// Saves the scene, and reports the file or the error.
     pub(super) fn save_scene(&mut self) {
         let file = self.files.scene.file();
-        if let Err(error) = output::save_scene(&self.settings, Path::new(&file)) {
-            self.say(error.to_string());
+        if let Err(error) = output::save_scene(&self.settings, &file) {
+            self.messages.fail(error.to_string());
             return;
         }
         // Settings are described by their difference from the scene file. The file has changed, so it is loaded again.
-        if Path::new(&file) == self.settings.estimator.scene.source {
-            self.open(Path::new(&file));
+        let source = self.settings.estimator.scene.source.clone();
+        if file == absolute(&source) {
+            self.open(&source);
         }
-        self.remember(Path::new(&file));
-        self.files.scene = SaveAs::new(&file);
-        self.say(format!("saved {file}"));
+        self.remember(&file);
+        self.files.scene.suggest_next();
+        self.messages.say(format!("saved {}", file.display()));
     }
 }
 

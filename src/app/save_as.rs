@@ -1,6 +1,6 @@
 //! The names of files that are opened and saved.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The name of a saved picture, unless the user types another.
 const PICTURE: &str = "thinlens.png";
@@ -26,19 +26,37 @@ impl SaveAs {
         Self { file: unused_name(file), offered: true }
     }
 
-    /// The name to use for saving now.
-    pub(super) fn file(&mut self) -> String {
+    /// The path of the file to save to now.
+    pub(super) fn file(&mut self) -> PathBuf {
         if self.offered {
             // The file may have been created since the name was suggested.
             self.file = unused_name(&self.file);
         }
-        self.file.clone()
+        typed(Path::new(self.file.trim()))
+    }
+
+    /// Suggests a new name, after the file was saved.
+    pub(super) fn suggest_next(&mut self) {
+        *self = Self::new(&self.file);
     }
 }
 
 impl Default for Files {
     fn default() -> Self {
         Self { open: String::new(), picture: SaveAs::new(PICTURE), scene: SaveAs::new(SCENE) }
+    }
+}
+
+/// The absolute path of a file.
+pub(super) fn absolute(file: &Path) -> PathBuf {
+    std::path::absolute(file).unwrap_or_else(|_| file.to_path_buf())
+}
+
+/// The absolute path that was typed: `~` at its start means the user's own folder, as in a shell.
+pub(super) fn typed(path: &Path) -> PathBuf {
+    match (path.strip_prefix("~"), etcetera::home_dir()) {
+        (Ok(inside), Ok(home)) => home.join(inside),
+        _ => absolute(path),
     }
 }
 
@@ -55,6 +73,6 @@ fn unused_name(name: &str) -> String {
     let numbered = (first.max(2)..).map(|number| path.with_file_name(format!("{stem}-{number}.{extension}")));
     std::iter::once(path.to_path_buf())
         .chain(numbered)
-        .find(|path| !path.exists())
+        .find(|path| !typed(path).exists())
         .map_or_else(|| name.to_owned(), |path| path.display().to_string())
 }

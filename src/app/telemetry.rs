@@ -17,7 +17,7 @@ pub const INPUT: &str = "input";
 pub const PRESENTED: &str = "presented";
 /// A control was drawn: its name in quotes, `at`, and its left, top, width and height.
 pub const CONTROL: &str = "control";
-/// A message that the panel shows to the user.
+/// A message to the user.
 pub const MESSAGE: &str = "message";
 /// The user copied this command line.
 pub const COPIED: &str = "copied";

@@ -24,7 +24,7 @@ pub struct Loaded {
 /// lit, framed, and with its nearest point in focus.
 ///
 /// # Errors
-/// [`Error::UnknownScene`] with near names, [`Error::Read`], [`Error::Scene`] with file and line, or
+/// [`Error::UnknownScene`] with near names, [`Error::NotAScene`], [`Error::Read`], [`Error::Scene`] with file and line, or
 /// [`Error::Mesh`].
 pub fn load(scene: impl AsRef<Path>) -> Result<Scene> {
     Ok(load_with_text(scene)?.scene)
@@ -61,6 +61,7 @@ fn load_named(scene: &Path) -> Result<Loaded> {
             let (scene, text) = stage::around(&Mesh::read(scene)?, &name)?;
             Ok(Loaded { scene, text, folder })
         }
+        _ if scene.exists() => Err(Error::NotAScene(scene.to_path_buf())),
         _ => Err(unknown(scene)),
     }
 }

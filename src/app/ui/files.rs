@@ -11,6 +11,7 @@ impl Panel {
     pub(super) fn files(&mut self, ui: &Ui, layout: &mut Layout) -> Option<Action> {
         let mut action = None;
         let mut wanted: Option<PathBuf> = None;
+        let mut typed = None;
         combo(ui, "Recent files", "Recent files", "Files that were opened before.", layout, |layout| {
             if self.recent.is_empty() {
                 ui.text_disabled("none yet");
@@ -32,7 +33,7 @@ impl Panel {
             layout,
             |id| {
                 if ui.input_text(id, &mut files.open).enter_returns_true(true).build() {
-                    wanted = Some(std::mem::take(&mut files.open).into());
+                    typed = Some(std::mem::take(&mut files.open));
                 }
             },
         );
@@ -78,6 +79,9 @@ impl Panel {
         );
         if let Some(file) = wanted {
             self.open(&file);
+        }
+        if let Some(typed) = typed {
+            self.open_typed(&typed);
         }
         action
     }

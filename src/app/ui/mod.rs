@@ -4,6 +4,7 @@ mod aperture;
 mod compare;
 mod files;
 mod lens;
+mod message;
 mod numbers;
 mod optics;
 mod overlay;
@@ -145,6 +146,7 @@ impl Panel {
         self.divider(ui, &mut layout);
         self.optics.draw(ui, status.diagram, &mut layout);
         overlay::legend(ui, &self.settings);
+        self.messages.draw(ui, &mut layout);
         if layout != self.layout {
             for (name, [x, y, width, height]) in &layout {
                 log::debug!("{} '{name}' at {x} {y} {width} {height}", telemetry::CONTROL);
@@ -179,9 +181,6 @@ impl Panel {
         });
         if let Some(name) = chosen {
             self.open(&name);
-        }
-        if let Some(message) = &self.message {
-            ui.text_wrapped(message);
         }
     }
 

@@ -8,7 +8,6 @@ use super::{FRAMES_AFTER_EVENT, OpenWindow};
 use crate::error::{Error, Result};
 use crate::renderer::Pace;
 use crate::vulkan::AcquiredImage;
-use std::path::Path;
 use std::time::{Duration, Instant};
 use winit::event_loop::EventLoopProxy;
 
@@ -98,11 +97,11 @@ impl OpenWindow {
         if action == Some(Action::CopyCommand) {
             let line = self.panel.settings.command_line("picture.png");
             log::debug!("{} {line}", telemetry::COPIED);
-            self.panel.say(if self.has_clipboard {
-                "The command line is in the clipboard.".into()
+            if self.has_clipboard {
+                self.panel.messages.say("The command line is in the clipboard.".into());
             } else {
-                format!("there is no clipboard; the command line is: {line}")
-            });
+                self.panel.messages.fail(format!("there is no clipboard; the command line is: {line}"));
+            }
             ui.set_clipboard_text(line);
         }
         self.platform.prepare_render(ui, &self.window);
@@ -114,7 +113,7 @@ impl OpenWindow {
         if self.panel.held.is_some() && !self.graphics.holds() {
             self.panel.held = None;
             self.graphics.let_go()?;
-            self.panel.say("The held picture is gone: it does not fit the window any more.".into());
+            self.panel.messages.say("The held picture is gone: it does not fit the window any more.".into());
         }
         if let Some(action) = action {
             self.act(action)?;
@@ -169,7 +168,7 @@ impl OpenWindow {
             Some(Ready::Opened { opened: Err(error @ Error::DeviceLost { .. }), .. }) => return Err(error),
             Some(Ready::Opened { opened: Err(error), .. }) => {
                 // The settings stay as they are.
-                self.panel.say(error.to_string());
+                self.panel.messages.fail(error.to_string());
                 return Ok(false);
             }
         };
@@ -212,7 +211,7 @@ impl OpenWindow {
         self.loader = Loader::new(self.graphics.device(), self.panel.shown(), waker.clone());
         self.focus.forget();
         self.panel.held = None;
-        self.panel.say(format!("{error}. It is open again."));
+        self.panel.messages.fail(format!("{error}. It is open again."));
         self.frames_to_draw = FRAMES_AFTER_EVENT;
         Ok(())
     }
@@ -225,7 +224,7 @@ impl OpenWindow {
         }
         match action {
             Action::Compare | Action::SavePicture if !self.graphics.has_started() => {
-                self.panel.say("there is no picture yet".into());
+                self.panel.messages.fail("there is no picture yet".into());
             }
             Action::Autofocus => {
                 self.focus.send_to(self.panel.settings.estimator.size.map(|extent| 0.5 * extent as f32));
@@ -243,9 +242,9 @@ impl OpenWindow {
             Action::SaveScene => self.panel.save_scene(),
             Action::SavePicture => {
                 let file = self.panel.picture_file();
-                match self.graphics.save(self.panel.shown(), Path::new(&file)) {
-                    Ok(()) => self.panel.picture_is_saved(),
-                    Err(error) => self.panel.say(error.to_string()),
+                match self.graphics.save(self.panel.shown(), &file) {
+                    Ok(()) => self.panel.picture_is_saved(&file),
+                    Err(error) => self.panel.messages.fail(error.to_string()),
                 }
             }
         }

@@ -163,7 +163,9 @@ impl ApplicationHandler for Viewer {
             return;
         };
         // Drawing waits for the display, so asking for the next frame at once does not spin.
-        let busy = open.frames_to_draw > 0 || !(open.graphics.finished() || open.rests());
+        let fades_at = open.panel.messages.fades_at();
+        let fades = fades_at.is_some_and(|at| at <= Instant::now());
+        let busy = open.frames_to_draw > 0 || fades || !(open.graphics.finished() || open.rests());
         let busy = busy && !open.is_hidden();
         if busy {
             open.window.request_redraw();
@@ -176,7 +178,7 @@ impl ApplicationHandler for Viewer {
         event_loop.set_control_flow(if open.last_frame.elapsed() < MAY_BE_PRESENTING {
             ControlFlow::wait_duration(LOOK_AGAIN)
         } else {
-            ControlFlow::Wait
+            fades_at.map_or(ControlFlow::Wait, ControlFlow::WaitUntil)
         });
     }
 

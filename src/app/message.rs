@@ -1,0 +1,67 @@
+//! The message that is shown over the picture.
+
+use super::telemetry;
+use std::time::{Duration, Instant};
+
+/// How long a message is shown about which nothing has to be done, before it begins to fade.
+const SHOWN: Duration = Duration::from_secs(6);
+/// How long it fades.
+const FADES: Duration = Duration::from_millis(500);
+
+/// What the viewer tells the user. A message about something that failed stays until it is closed or replaced; any
+/// other one fades.
+#[derive(Default)]
+pub(super) struct Messages {
+    shown: Option<Message>,
+    /// The number of the last message.
+    number: u32,
+}
+
+pub(super) struct Message {
+    pub(super) text: String,
+    pub(super) failed: bool,
+    /// No two messages have the same number.
+    pub(super) number: u32,
+    /// When a frame first showed it.
+    since: Option<Instant>,
+}
+
+impl Messages {
+    /// Shows that something was done.
+    pub(super) fn say(&mut self, text: String) {
+        self.show(text, false);
+    }
+
+    /// Shows that something failed.
+    pub(super) fn fail(&mut self, text: String) {
+        self.show(text, true);
+    }
+
+    fn show(&mut self, text: String, failed: bool) {
+        log::debug!("{} {text}", telemetry::MESSAGE);
+        self.number += 1;
+        self.shown = Some(Message { text, failed, number: self.number, since: None });
+    }
+
+    pub(super) fn close(&mut self) {
+        self.shown = None;
+    }
+
+    /// The message to draw in this frame and its opacity. The time begins with the first frame, so that nobody misses
+    /// a message whose frame came late.
+    pub(super) fn in_this_frame(&mut self) -> Option<(&Message, f32)> {
+        let message = self.shown.as_mut()?;
+        let faded = message.since.get_or_insert_with(Instant::now).elapsed().saturating_sub(SHOWN);
+        let opacity = if message.failed { 1.0 } else { 1.0 - faded.as_secs_f32() / FADES.as_secs_f32() };
+        if opacity <= 0.0 {
+            self.shown = None;
+        }
+        self.shown.as_ref().map(|message| (message, opacity))
+    }
+
+    /// When the message begins to fade. From then on, each frame shows it fainter.
+    pub(super) fn fades_at(&self) -> Option<Instant> {
+        let message = self.shown.as_ref().filter(|message| !message.failed)?;
+        message.since.map(|since| since + SHOWN)
+    }
+}
