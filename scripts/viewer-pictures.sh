@@ -15,7 +15,7 @@ DISPLAY=:$(cat "$folder/display")
 export DISPLAY
 
 (cd "$folder" && exec env -u WAYLAND_DISPLAY -u WAYLAND_SOCKET XDG_STATE_HOME="$folder" RUST_LOG=thinlens=trace \
-    "$program" view version-4 --size 1280x720 2>"$log" >/dev/null) &
+    "$program" view version-4 --size 960x720 2>"$log" >/dev/null) &
 viewer=$!
 
 idle_lines() { grep -c '\] idle$' "$log" || true; }
@@ -53,7 +53,7 @@ click() {
 # Saves what the display shows.
 save() { import -window root -strip "docs/images/$1"; }
 
-box=(935 290)
+box=(1095 290)
 settle
 point "${box[@]}"
 save viewer.png
@@ -67,5 +67,5 @@ click Lens
 click f/2.8
 press c
 click f/32
-point 812 360
+point 972 360
 save split.png

@@ -2,15 +2,14 @@
 
 mod common;
 
-use common::viewer::{Viewer, x11::difference};
+use common::viewer::{PANEL, Viewer, x11::difference};
 use common::{decode_png, render_png, run};
 use std::process::Command;
 use std::time::Duration;
 use thinlens::scene;
 
 const SIZE: [u16; 2] = [800, 720];
-/// Columns right of the panel, and rows below the labels of a comparison.
-const LEFT: usize = 340;
+/// Rows below the labels of a comparison.
 const TOP: usize = 60;
 
 /// A wide open picture of the scene, which is quick.
@@ -141,10 +140,11 @@ fn a_held_picture_stands_beside_the_live_one() {
     let held = rendered(&viewer, &["-n", "2", "--f-number", "2.8"]);
     let live = rendered(&viewer, &["-n", "2", "--lens-diameter", "0"]);
     let agree = |line: u16| {
-        let (from, to) = (usize::from(line) - 14, usize::from(line) + 14);
+        let line = usize::from(line - PANEL);
+        let (from, to) = (line - 14, line + 14);
         viewer.wait_for("both sides", |viewer| {
-            let shown = viewer.screen([0, 0], SIZE);
-            columns(&shown, LEFT, from) == columns(&held, LEFT, from)
+            let shown = viewer.picture();
+            columns(&shown, 0, from) == columns(&held, 0, from)
                 && columns(&shown, to, 800) == columns(&live, to, 800)
         });
     };
@@ -154,7 +154,7 @@ fn a_held_picture_stands_beside_the_live_one() {
     };
     let before = line(&viewer);
     agree(before);
-    assert!(difference(&columns(&held, LEFT, 800), &columns(&live, LEFT, 800)) > 50, "nothing to compare");
+    assert!(difference(&columns(&held, 0, 800), &columns(&live, 0, 800)) > 50, "nothing to compare");
     viewer.until(
         "the line",
         |viewer| line(viewer) > before + 50,
@@ -167,7 +167,7 @@ fn a_held_picture_stands_beside_the_live_one() {
 
     viewer.press("c");
     viewer.wait_for("only the live picture", |viewer| {
-        columns(&viewer.screen([0, 0], SIZE), LEFT, 800) == columns(&live, LEFT, 800)
+        columns(&viewer.picture(), 0, 800) == columns(&live, 0, 800)
     });
     viewer.close();
 }
@@ -191,8 +191,7 @@ fn what_is_saved_renders_again() {
     let saved = viewer.folder.join("thinlens.png");
     viewer.until("saving", |_| saved.exists(), || viewer.press("ctrl+s"));
     let picture = decode_png(&std::fs::read(&saved).expect("a picture"));
-    let columns = |picture: &[[u8; 3]]| columns(picture, LEFT, 800);
-    assert!(columns(&picture.1) == columns(&viewer.screen([0, 0], SIZE)), "it is not what was shown");
+    viewer.wait_for("what was saved", |viewer| viewer.picture() == picture.1);
 
     let again = |arguments: &[&str]| {
         let outcome = run(&viewer.folder, arguments);
@@ -339,7 +338,7 @@ fn the_optics_are_those_of_the_pixel_that_was_clicked() {
         "clicking",
         |viewer| viewer.diagram.borrow().is_some_and(|(pixel, _)| pixel == [650.5, 201.5]),
         || {
-            viewer.point([650, 201]);
+            viewer.point(Viewer::in_window([650, 201]));
             viewer.hands("click 1", 0);
         },
     );

@@ -51,7 +51,7 @@ fn what_is_pointed_at_comes_into_focus() {
             "pointing",
             |viewer| (f64::from(viewer.state.borrow()[1]) / depth - 1.0).abs() < 1e-4,
             || {
-                viewer.point(pixel.map(u32::cast_signed));
+                viewer.point(Viewer::in_window(pixel));
                 viewer.hands(act, 0);
             },
         );
@@ -83,7 +83,7 @@ fn what_is_pointed_at_comes_into_focus() {
     // The background is nothing to focus on.
     viewer.rest();
     let before = *viewer.state.borrow();
-    viewer.point([790, 10]);
+    viewer.point(Viewer::in_window([790, 10]));
     viewer.hands("click 3", 0);
     viewer.rest();
     assert_eq!(*viewer.state.borrow(), before, "it focuses on the sky");
@@ -142,7 +142,7 @@ fn overlays_are_shown_with_a_legend() {
     let rows = usize::from(SIZE[1]) - 110;
     viewer.wait_until_done();
     viewer.expect_rows("depths", rows, 0, &["-n", "2", "--overlay", "depth"]);
-    let legend = || viewer.screen([535, 884], [240, 1]);
+    let legend = || viewer.screen([855, 884], [240, 1]);
     // Its background is dark, and not the picture.
     assert!(legend().iter().all(|pixel| pixel.iter().all(|level| *level < 90)), "no legend");
     viewer.drag("Focal plane distance", &[0.5, 0.55, 0.6], |viewer| viewer.state.borrow()[1] > 12.0);

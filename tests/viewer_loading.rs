@@ -169,6 +169,7 @@ fn the_shutter_compiles_nothing() {
         }
     }
     viewer.hands("mouseup 1", 0);
+    viewer.point_away();
     viewer.wait_until_done();
     assert_eq!(compiled.get(), 0, "passes are compiled");
     assert!(viewer.picture() != before, "the shutter does nothing");
@@ -208,6 +209,7 @@ fn a_lost_device_is_opened_again() {
     let message = viewer.message.borrow().clone();
     assert!(["trace", "resolve", "pick"].iter().any(|pass| message.contains(pass)), "{message}");
     viewer.wait_until_done();
+    viewer.click_once("Close message");
     viewer.expect_picture("the same picture", 0, &["suffern-boxes", "-n", "40"]);
     viewer.drag("Lens diameter", &[0.5, 0.4, 0.3], |_| true);
     viewer.wait_until_done();

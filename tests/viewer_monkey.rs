@@ -3,7 +3,7 @@
 mod common;
 
 use common::render_png;
-use common::viewer::Viewer;
+use common::viewer::{PANEL, Viewer};
 use fastrand::Rng;
 use std::collections::HashSet;
 use std::time::{Duration, Instant};
@@ -183,7 +183,7 @@ fn two_hundred_actions_leave_nothing_behind() {
     let start = (*viewer.state.borrow(), *viewer.camera.borrow(), viewer.shown.borrow().1);
     let plain = viewer.folder.join("plain.png");
     std::fs::write(&plain, render_png(&viewer.folder, &["-n", "4", "-s", "40x30"])).expect("a picture");
-    let mut monkey = Monkey { viewer: &viewer, random: Rng::with_seed(SEED), size: SIZE };
+    let mut monkey = Monkey { viewer: &viewer, random: Rng::with_seed(SEED), size: viewer.size };
     let home = |monkey: &mut Monkey<'_>| {
         // Whatever was being typed is over.
         viewer.press("Escape");
@@ -197,11 +197,18 @@ fn two_hundred_actions_leave_nothing_behind() {
         );
         // Depths that an overlay has shown stay as long as the size does.
         for [width, height] in [SIZE.map(|extent| extent - 20), SIZE] {
-            viewer.xdotool(&format!("search --class thinlens windowsize {width} {height}"));
-            let shown = format!("of {width}x{height}");
-            viewer.wait_for("another size", |viewer| viewer.last_shown.borrow().contains(&shown));
+            viewer.xdotool(&format!("search --class thinlens windowsize {} {height}", width + PANEL));
+            // The panel may be wider, or hidden, and what is over the picture too.
+            let shown = format!("x{height}");
+            viewer.wait_for("another size", |viewer| viewer.last_shown.borrow().ends_with(&shown));
         }
-        monkey.size = SIZE;
+        // So is its edge where it was.
+        let [x, y, width, height] = viewer.controls.borrow()["Edge of the panel"];
+        let edge = [x + width / 2, y + height / 2];
+        viewer.drag_picture(1, edge, [i32::from(PANEL) - width / 2, edge[1]]);
+        let shown = format!("of {}x{}", SIZE[0], SIZE[1]);
+        viewer.wait_for("the panel's own width", |viewer| viewer.last_shown.borrow().ends_with(&shown));
+        monkey.size = viewer.size;
         viewer.rest();
         let holds =
             |viewer: &Viewer| viewer.memory.borrow().iter().any(|(name, _)| name.contains("held picture"));

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::viewer::Viewer;
+use common::viewer::{PANEL, Viewer};
 
 const SIZE: [u16; 2] = [800, 720];
 const QUICK: [&str; 2] = ["-n", "2"];
@@ -42,16 +42,106 @@ fn messages_lie_over_the_picture_and_move_nothing() {
     assert!(is_red(message_color(&viewer)), "an error goes by itself");
     viewer.until("closing", |viewer| viewer.picture() == before, || viewer.click_once("Close message"));
 
-    viewer.until(
-        "saving",
-        |viewer| viewer.message.borrow().starts_with("saved"),
-        || viewer.press("ctrl+s"),
-    );
+    viewer.until("saving", |viewer| viewer.message.borrow().starts_with("saved"), || viewer.press("ctrl+s"));
     let saved = viewer.folder.join("thinlens.png").canonicalize().expect("a file");
     assert_eq!(*viewer.message.borrow(), format!("saved {}", saved.display()));
     viewer.wait_for("success", |viewer| viewer.picture() != before);
     assert!(!is_red(message_color(&viewer)), "success looks like an error");
     viewer.wait_for("fading", |viewer| viewer.picture() == before);
     viewer.rest();
+    viewer.close();
+}
+
+/// Catches a panel that lies over a part of the picture, a column that stays when all is hidden, and a width that is
+/// forgotten.
+#[test]
+fn the_picture_stands_beside_the_panel() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let viewer = Viewer::start_in(folder.path(), SIZE, &["--size", "800x720", "--validation", "-n", "2"]);
+    viewer.wait_until_done();
+    viewer.expect_picture("all of the picture", 0, &QUICK);
+
+    // Hidden, the picture takes the whole window.
+    let is = |size: [u16; 2]| move |viewer: &Viewer| viewer.picture_size() == size;
+    viewer.until("hiding", is([SIZE[0] + PANEL, SIZE[1]]), || viewer.press("h"));
+    viewer.expect_picture("nothing but the picture", 0, &QUICK);
+    viewer.until("showing", is(SIZE), || viewer.press("h"));
+
+    // The edge follows the hand.
+    let [x, y, width, height] = viewer.controls.borrow()["Edge of the panel"];
+    let edge = [x + width / 2, y + height / 2];
+    let wider = 60;
+    viewer.until("a wider panel", is([SIZE[0] - wider, SIZE[1]]), || {
+        viewer.drag_picture(1, edge, [edge[0] + i32::from(wider), edge[1]])
+    });
+    viewer.wait_until_done();
+    viewer.expect_picture("a narrower picture", 0, &QUICK);
+    viewer.close();
+    let again = Viewer::start_in(folder.path(), SIZE, &["--validation"]);
+    again.wait_until_done();
+    assert_eq!(again.picture_size(), [SIZE[0] - wider, SIZE[1]], "the width is forgotten");
+    again.close();
+}
+
+/// Catches a head of the panel that scrolls away, a section that opens out of sight, and folds that are forgotten.
+#[test]
+fn sections_scroll_under_the_sliders() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let low = [500, 680];
+    let arguments = ["--size", "500x680", "--validation", "-n", "2"];
+    let viewer = Viewer::start_in(folder.path(), low, &arguments);
+    viewer.wait_until_done();
+    let head = ["Scene", "Lens diameter", "Focal plane distance", "Autofocus", "What is sharp"];
+    let places = |viewer: &Viewer| head.map(|name| viewer.controls.borrow()[name]);
+    let before = places(&viewer);
+    viewer.click("Viewpoint", |viewer| viewer.controls.borrow().contains_key("Reset camera"));
+    viewer.rest();
+    let [_, y, _, height] = viewer.controls.borrow()["Reset camera"];
+    assert!(y > before[4][1] && y + height <= 680, "the section opens out of sight, at {y}");
+    assert_eq!(places(&viewer), before, "what has to stay in view moves");
+    viewer.close();
+
+    let again = Viewer::start_in(folder.path(), low, &["--validation"]);
+    again.wait_until_done();
+    assert!(again.controls.borrow().contains_key("Reset camera"), "an open section is closed again");
+    again.close();
+}
+
+/// Catches a window of half its size on a display of twice the resolution, and a size that one scale leaves to another.
+#[test]
+fn the_window_follows_the_scale_of_the_display() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let start = |scale: &str, picture: [u16; 2]| {
+        let variables = [("WINIT_X11_SCALE_FACTOR", scale)];
+        let arguments = ["suffern-boxes", "--validation", "-n", "1"];
+        let viewer = Viewer::start_with(folder.path(), picture, &arguments, &variables);
+        viewer.wait_until_done();
+        assert_eq!(viewer.picture_size(), picture, "at scale {scale}");
+        viewer
+    };
+    let mut viewer = start("1", [960, 720]);
+    viewer.resize([500, 400]);
+    viewer.close();
+    start("2", [1920, 1440]).close();
+    start("1", [500, 400]).close();
+}
+
+/// Catches a window that is left outside when the viewer's window shrinks, and a legend under it.
+#[test]
+fn windows_stay_within_reach() {
+    let mut viewer = Viewer::start([900, 700], &["-n", "1", "--overlay", "depth"]);
+    viewer.wait_until_done();
+    let legend = |viewer: &Viewer, [x, y]: [i16; 2]| viewer.screen([x, y], [240, 1]);
+    viewer.click("Optics", |viewer| viewer.diagram.borrow().is_some());
+    let right = |viewer: &Viewer| {
+        let [x, _, width, _] = viewer.controls.borrow()["Optics window"];
+        x + width
+    };
+    viewer.wait_for("the drawing", |viewer| viewer.controls.borrow().contains_key("Optics window"));
+    // The legend is in the upper right corner, above the drawing.
+    let dark = |row: &[[u8; 3]]| row.iter().all(|pixel| pixel.iter().all(|level| *level < 90));
+    viewer.wait_for("the legend", |viewer| dark(&legend(viewer, [955, 14])));
+    viewer.resize([500, 400]);
+    viewer.wait_for("the drawing in the window", |viewer| right(viewer) <= 820);
     viewer.close();
 }

@@ -1,6 +1,7 @@
 //! Questions to the device about three pixels: the one under the pointer, the one whose optics are drawn, and the one
 //! to focus on. Also moves the focal plane to what was chosen.
 
+use super::area::Area;
 use super::diagram::Diagram;
 use super::keys::Modifiers;
 use super::telemetry;
@@ -68,13 +69,12 @@ struct Mark {
 
 impl Focus {
     /// Handles mouse and keys over the picture.
-    pub(super) fn take_input(&mut self, ui: &Ui, modifiers: Modifiers, lens: &mut Lens, size: [u32; 2]) {
+    pub(super) fn take_input(&mut self, ui: &Ui, modifiers: Modifiers, lens: &mut Lens, area: &Area) {
         let io = ui.io();
         let over_picture = !io.want_capture_mouse && ui.is_mouse_pos_valid(io.mouse_pos);
         let scale = io.display_framebuffer_scale;
         // The question is about the middle of the pixel under the pointer.
-        self.pointer =
-            over_picture.then(|| [0, 1].map(|axis| (io.mouse_pos[axis] * scale[axis]).floor() + 0.5));
+        self.pointer = over_picture.then(|| area.under_mouse(ui).map(|place| place.floor() + 0.5));
         let Some(pointer) = self.pointer else {
             self.pressed = None;
             return;
@@ -86,7 +86,7 @@ impl Focus {
             && let Some(pressed) = self.pressed.take()
             && (pressed[0] - pointer[0]).hypot(pressed[1] - pointer[1]) <= STILL * scale[0]
         {
-            self.pinned = Some([0, 1].map(|axis| pointer[axis] / size[axis] as f32));
+            self.pinned = Some([0, 1].map(|axis| pointer[axis] / area.pixels[axis] as f32));
         }
         if ui.is_mouse_clicked(MouseButton::Right) || (ui.is_key_pressed(Key::F) && !io.want_text_input) {
             self.wanted = self.pointer;
@@ -181,12 +181,11 @@ impl Focus {
     }
 
     /// Draws the mark on the place that is brought into focus.
-    pub(super) fn draw(&self, ui: &Ui) {
+    pub(super) fn draw(&self, ui: &Ui, area: &Area) {
         let Some(Mark { at, since, found }) = &self.mark else {
             return;
         };
-        let scale = ui.io().display_framebuffer_scale;
-        let centre = [at[0] / scale[0], at[1] / scale[1]];
+        let centre = area.in_window(*at);
         let fade = 1.0 - since.elapsed().as_secs_f32() / MARK.as_secs_f32();
         let (color, text) =
             if *found { ([1.0, 0.85, 0.3], None) } else { ([1.0, 0.4, 0.35], Some("nothing to focus on")) };
@@ -221,9 +220,9 @@ impl Focus {
     }
 
     /// Marks the pinned pixel.
-    pub(super) fn draw_pin(&self, ui: &Ui) {
-        let ([width, height], [x, y]) = (ui.io().display_size, self.pinned.unwrap_or([0.5; 2]));
-        let centre = [x * width, y * height];
+    pub(super) fn draw_pin(&self, ui: &Ui, area: &Area) {
+        let pinned = self.pinned.unwrap_or([0.5; 2]);
+        let centre = area.in_window([0, 1].map(|axis| pinned[axis] * area.pixels[axis] as f32));
         let list = ui.get_background_draw_list();
         for (radius, color) in [(5.0, [0.0, 0.0, 0.0, 0.6]), (4.0, [1.0, 1.0, 1.0, 0.9])] {
             list.add_circle(centre, radius, color).thickness(1.5).build();

@@ -101,7 +101,7 @@ impl Graphics {
         self.renderer.as_ref().is_none_or(Renderer::finished)
     }
 
-    /// Makes the swapchain fit the window and imgui's renderer fit the fonts. Returns the size to render at, or `None`
+    /// Makes the swapchain fit the window and imgui's renderer fit the fonts. Returns the window's size, or `None`
     /// while the window has no area.
     pub(super) fn fit(&mut self, window: [u32; 2], imgui: &mut imgui::Context) -> Result<Option<[u32; 2]>> {
         if window.contains(&0) {
@@ -185,10 +185,9 @@ impl Graphics {
         saved
     }
 
-    /// Whether a picture is held that has the size of the window.
-    pub(super) fn holds(&self) -> bool {
-        let extent = self.swapchain.as_ref().map(Swapchain::extent);
-        self.held.as_ref().is_some_and(|held| Some(held.extent()) == extent)
+    /// Whether a picture of this size is held.
+    pub(super) fn holds(&self, size: [u32; 2]) -> bool {
+        self.held.as_ref().is_some_and(|held| held.extent() == size)
     }
 
     /// Releases the held picture.
@@ -231,7 +230,8 @@ impl Graphics {
     }
 
     /// Traces for as long as `pace` says, if it is given, and draws the picture and the panel to `image`. Call
-    /// [`Self::wait_for_frame`] first. The held picture is shown up to the column `split`. The answer to `question`
+    /// [`Self::wait_for_frame`] first. The picture is drawn with its upper left corner at `corner`, and the held picture
+    /// up to the column `split` of the picture. The answer to `question`
     /// comes when the frame is done.
     pub(super) fn draw(
         &mut self,
@@ -239,6 +239,7 @@ impl Graphics {
         imgui: &mut imgui::Context,
         pace: Option<Pace>,
         question: Option<Question>,
+        corner: [u32; 2],
         split: u32,
     ) -> Result<()> {
         let panel = imgui.render();
@@ -261,7 +262,7 @@ impl Graphics {
 
         let left = self.held.as_ref().map(|held| (held, split));
         let picture = self.renderer.as_ref().map(Renderer::picture);
-        swapchain.begin_drawing(&mut recording, image, picture, left);
+        swapchain.begin_drawing(&mut recording, image, corner, picture, left);
         if let Some(overlay) = &mut self.overlay {
             overlay.cmd_draw(recording.raw(), panel).map_err(overlay_error)?;
         }

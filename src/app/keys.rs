@@ -4,7 +4,7 @@ use super::ui::Action;
 use imgui::{Condition, Key, Ui};
 
 /// What the mouse and the keys do, as shown to the user.
-const LIST: [(&str, &str); 18] = [
+const LIST: [(&str, &str); 19] = [
     ("Right click, F", "focus on what is under the pointer"),
     ("Ctrl + wheel", "move the focal plane"),
     ("Click", "draw the optics of this pixel"),
@@ -16,6 +16,7 @@ const LIST: [(&str, &str); 18] = [
     ("O", "optics"),
     ("C", "compare: hold this picture on the left, or release it"),
     ("P", "pause, and go on"),
+    ("H", "hide everything but the picture, or show it"),
     ("Ctrl + Z", "undo"),
     ("Ctrl + Shift + Z, Ctrl + Y", "redo"),
     ("Ctrl + S", "save the picture"),
@@ -71,6 +72,7 @@ pub(super) fn pressed(ui: &Ui, modifiers: Modifiers) -> Option<Action> {
             (Key::O, Action::Optics),
             (Key::C, Action::Compare),
             (Key::P, Action::Pause),
+            (Key::H, Action::Hide),
             (Key::Home, Action::ResetCamera),
         ];
         plain.into_iter().find(|(key, _)| pressed(*key))
@@ -85,8 +87,10 @@ pub(super) fn help(ui: &Ui, open: &mut bool) {
     }
     let [width, height] = ui.io().display_size;
     ui.window("Keys")
-        .position([0.5 * width, 0.5 * height], Condition::Appearing)
+        .position([0.5 * width, 0.5 * height], Condition::Always)
         .position_pivot([0.5, 0.5])
+        .size_constraints([0.0; 2], [width, height])
+        .horizontal_scrollbar(true)
         .always_auto_resize(true)
         .collapsible(false)
         .opened(open)

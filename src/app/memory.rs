@@ -4,6 +4,7 @@ use crate::pending_file::PendingFile;
 use crate::settings::saved_names;
 use etcetera::BaseStrategy;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
@@ -11,8 +12,9 @@ use std::path::PathBuf;
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Memory {
-    /// The window's size in physical pixels.
-    pub size: Option<[u32; 2]>,
+    /// The window's size in physical pixels, for each scale of the display in percent: the same window may stand on
+    /// displays of different scales.
+    pub sizes: BTreeMap<u32, [u32; 2]>,
     /// The settings, as [`crate::settings::Settings::arguments`] returns them. Empty before the first run.
     #[serde(with = "saved_names")]
     pub arguments: Vec<OsString>,
@@ -21,6 +23,10 @@ pub struct Memory {
     pub recent: Vec<PathBuf>,
     /// Whether the drawing of the optics was open.
     pub optics: bool,
+    /// The width of the panel in points.
+    pub panel_width: Option<f32>,
+    /// The sections of the panel that were opened or closed, and whether they are open.
+    pub folds: BTreeMap<String, bool>,
 }
 
 impl Memory {

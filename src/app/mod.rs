@@ -1,5 +1,6 @@
 //! The viewer: a window that shows the film as it fills, and a panel that changes what is rendered.
 
+mod area;
 mod clipboard;
 pub mod diagram;
 mod display;
@@ -29,7 +30,7 @@ pub struct Options {
     pub settings: Settings,
     /// The settings that the Reset button restores.
     pub initial: Settings,
-    /// The window's size in physical pixels, if one was asked for.
+    /// The picture's size in physical pixels, if one was asked for.
     pub size: Option<[u32; 2]>,
     /// What the viewer remembers of its last run.
     pub memory: Memory,

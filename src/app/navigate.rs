@@ -1,6 +1,7 @@
 //! Moves the camera with the mouse and the keys: around the point that it looks at, sideways, nearer or away, and in
 //! flight.
 
+use super::area::Area;
 use super::keys::Modifiers;
 use crate::scene::{Camera, MAX_LENGTH};
 use glam::{DQuat, DVec3};
@@ -39,7 +40,7 @@ pub(super) struct Navigate {
 
 impl Navigate {
     /// Handles mouse and keys, and moves the camera.
-    pub(super) fn take_input(&mut self, ui: &Ui, modifiers: Modifiers, camera: &mut Camera) {
+    pub(super) fn take_input(&mut self, ui: &Ui, modifiers: Modifiers, camera: &mut Camera, area: &Area) {
         let io = ui.io();
         let over_picture = !io.want_capture_mouse;
         for button in [MouseButton::Left, MouseButton::Middle] {
@@ -54,7 +55,7 @@ impl Navigate {
                 if *drags {
                     let [x, y] = [x, y].map(f64::from);
                     if *button == MouseButton::Middle || modifiers.shift {
-                        pan(camera, [x, y], io.display_size[1]);
+                        pan(camera, [x, y], area.size()[1]);
                     } else {
                         orbit(camera, [-TURN * x, -TURN * y]);
                     }
@@ -107,7 +108,8 @@ fn orbit(camera: &mut Camera, [right, up]: [f64; 2]) {
     place(camera, look_at + DQuat::from_axis_angle(aside, turned) * away, look_at);
 }
 
-/// Moves the camera sideways, so that the point that it looks at follows the mouse by this many points.
+/// Moves the camera sideways, so that the point that it looks at follows the mouse by this many points. The picture is so many
+/// points high.
 fn pan(camera: &mut Camera, [x, y]: [f64; 2], height: f32) {
     let (eye, look_at, frame) = (camera.eye, camera.look_at, camera.frame());
     let pixel = 2.0 * (0.5 * camera.vfov_radians).tan() * eye.distance(look_at) / f64::from(height);

@@ -1,6 +1,7 @@
 //! The state of the panel: the settings that it edits, and what it needs for that. `ui` draws it.
 
 use super::Options;
+use super::area::Placed;
 use super::memory::Memory;
 use super::message::Messages;
 use super::save_as::{self, Files, absolute};
@@ -8,10 +9,17 @@ use crate::error::{Error, Result};
 use crate::output::{self, Origin, PictureFormat};
 use crate::scene::{self, ApertureImage, BUILTINS, SceneRef};
 use crate::settings::{Called, Settings};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// The largest number of recent files.
 const MAX_RECENT: usize = 8;
+
+/// The width of the panel unless the user has changed it, and the narrowest one, in points.
+const WIDTH: f32 = 320.0;
+const MIN_WIDTH: f32 = 240.0;
+/// The panel takes at most this share of the window.
+const MAX_SHARE: f32 = 0.8;
 
 /// The panel's state.
 pub(super) struct Panel {
@@ -36,6 +44,12 @@ pub(super) struct Panel {
     pub(super) held: Option<Held>,
     pub(super) paused: bool,
     pub(super) keys: bool,
+    /// The width of the panel in points, as the user has set it.
+    pub(super) width: f32,
+    /// Whether the panel and everything else over the picture is hidden.
+    pub(super) hidden: bool,
+    /// The sections that were opened or closed, and whether they are open.
+    pub(super) folds: BTreeMap<String, bool>,
     /// Where the controls were drawn last, to notice when they move.
     pub(super) layout: Layout,
 }
@@ -48,17 +62,18 @@ pub(super) struct Optics {
     pub(super) rays: u32,
     /// Vertical magnification of the side and top view, for lenses that are too narrow to see.
     pub(super) stretch: f32,
+    pub(super) placed: Placed,
 }
 
 impl Default for Optics {
     fn default() -> Self {
-        Self { open: false, rays: 9, stretch: 1.0 }
+        Self { open: false, rays: 9, stretch: 1.0, placed: Placed::default() }
     }
 }
 
 /// A picture that is held for comparison.
 pub(super) struct Held {
-    /// The position of the dividing line, as a fraction of the width.
+    /// The position of the dividing line, as a fraction of the picture's width.
     pub(super) share: f32,
     /// The settings of the held picture, in a few words.
     pub(super) words: String,
@@ -81,12 +96,15 @@ pub(super) fn builtin(name: &Path) -> Option<&'static str> {
 impl Panel {
     pub(super) fn new(options: &Options) -> Self {
         let settings = options.settings.clone();
+        // Pictures are recent files too, but no scenes.
+        let is_scene = |file: &&PathBuf| PictureFormat::of(file).is_none() && file.exists();
+        let opened = options.memory.recent.iter().filter(is_scene).cloned();
         let mut panel = Self {
             initial: options.initial.clone(),
             accepted: State { settings: settings.clone(), initial: options.initial.clone() },
             image: settings.estimator.aperture.image.clone(),
             settings,
-            scenes: BUILTINS.iter().map(|builtin| builtin.name.into()).collect(),
+            scenes: BUILTINS.iter().map(|builtin| builtin.name.into()).chain(opened).collect(),
             recent: options.memory.recent.clone(),
             files: Files::default(),
             to_open: None,
@@ -95,6 +113,9 @@ impl Panel {
             held: None,
             paused: false,
             keys: false,
+            width: options.memory.panel_width.unwrap_or(WIDTH),
+            hidden: false,
+            folds: options.memory.folds.clone(),
             layout: Vec::new(),
         };
         panel.offer_scene();
@@ -108,7 +129,7 @@ impl Panel {
     /// Adds the scene to those to choose from.
     fn offer_scene(&mut self) {
         let source = &self.settings.estimator.scene.source;
-        if !self.scenes.contains(source) {
+        if builtin(source).is_none() && !self.scenes.iter().any(|known| absolute(known) == absolute(source)) {
             self.scenes.push(source.clone());
         }
     }
@@ -133,15 +154,21 @@ impl Panel {
         }
     }
 
-    /// What to remember for the next run.
-    pub(super) fn memory(&self) -> Memory {
-        let Settings { estimator, .. } = &self.settings;
+    /// The width of the column that the panel takes in a window of this width, in points.
+    pub(super) fn column(&self, window: f32) -> f32 {
+        if self.hidden { 0.0 } else { self.width.max(MIN_WIDTH).min(MAX_SHARE * window).floor() }
+    }
+
+    /// What to remember for the next run, with these sizes of the window.
+    pub(super) fn memory(&self, sizes: BTreeMap<u32, [u32; 2]>) -> Memory {
         Memory {
-            size: Some(estimator.size),
+            sizes,
             // The next run may start in another folder.
             arguments: self.settings.arguments_from_anywhere(),
             recent: self.recent.clone(),
             optics: self.optics.open,
+            panel_width: Some(self.width),
+            folds: self.folds.clone(),
         }
     }
 
@@ -172,6 +199,12 @@ impl Panel {
         let own = self.settings.check_as(Called::Label).err();
         self.messages.fail(own.as_ref().unwrap_or(error).to_string());
         self.restore(self.accepted.clone());
+    }
+
+    /// The title of the window: the name of the scene.
+    pub(super) fn title(&self) -> String {
+        let source = &self.settings.estimator.scene.source;
+        format!("{} - thinlens", source.file_name().unwrap_or(source.as_os_str()).to_string_lossy())
     }
 
     /// The settings of the picture that is shown.

@@ -156,12 +156,14 @@ impl Swapchain {
         self.format == vk::Format::B8G8R8A8_UNORM
     }
 
-    /// Copies `picture` to the acquired image, or another one to its left part, and opens it for drawing on
-    /// top. The sizes are the same. Without a picture the image is black.
+    /// Copies `picture` to the acquired image, with its upper left corner at `corner`, and opens the image for drawing
+    /// on top. Another picture of the same size takes the left part of its place. What no picture covers must be drawn
+    /// over; without a picture the image is black.
     pub fn begin_drawing(
         &self,
         recording: &mut Recording<'_>,
         image: &AcquiredImage,
+        corner: [u32; 2],
         picture: Option<&Image>,
         left: Option<(&Image, u32)>,
     ) {
@@ -177,17 +179,18 @@ impl Swapchain {
         let (dst, color) = (vk::ImageLayout::TRANSFER_DST_OPTIMAL, vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL);
         transition(recording, raw, vk::ImageLayout::UNDEFINED, undefined, dst, transfer);
         let copy = |picture: &Image, from: u32, to: u32| {
-            let [width, height] = [0, 1].map(|axis| self.extent[axis].min(picture.extent()[axis]));
+            let [width, height] =
+                [0, 1].map(|axis| self.extent[axis].saturating_sub(corner[axis]).min(picture.extent()[axis]));
             let (from, to) = (from.min(width), to.min(width));
-            if from == to {
+            if from == to || height == 0 {
                 return;
             }
-            let offset = vk::Offset3D { x: from.cast_signed(), y: 0, z: 0 };
+            let offset = |x: u32, y: u32| vk::Offset3D { x: x.cast_signed(), y: y.cast_signed(), z: 0 };
             let region = [vk::ImageCopy::default()
                 .src_subresource(LAYER)
-                .src_offset(offset)
+                .src_offset(offset(from, 0))
                 .dst_subresource(LAYER)
-                .dst_offset(offset)
+                .dst_offset(offset(corner[0] + from, corner[1]))
                 .extent(vk::Extent3D { width: to - from, height, depth: 1 })];
             let general = vk::ImageLayout::GENERAL;
             // A copy leaves the bytes as they are. A blit would convert them, which takes a software device as long as

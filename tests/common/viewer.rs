@@ -24,6 +24,9 @@ use x11rb::rust_connection::RustConnection;
 /// Long enough for a busy machine; what is waited for comes in well under a second elsewhere.
 const PATIENCE: Duration = Duration::from_secs(60);
 
+/// The width of the panel, which stands at the left of the picture.
+pub const PANEL: u16 = 320;
+
 /// A display that nobody sees.
 pub struct Server {
     process: Killed,
@@ -84,12 +87,13 @@ pub struct Viewer {
     _folder: Option<TempDir>,
     connection: RustConnection,
     root: Window,
+    /// The size of the window.
     pub size: [u16; 2],
     _server: Killed,
 }
 
 impl Viewer {
-    /// Starts a display and the viewer in it under validation, and waits for its panel.
+    /// Starts a display and the viewer in it under validation, with a picture of this size, and waits for its panel.
     pub fn start(size: [u16; 2], arguments: &[&str]) -> Self {
         Self::start_as_user(size, &[&["--validation"], arguments].concat())
     }
@@ -104,7 +108,7 @@ impl Viewer {
         viewer
     }
 
-    /// Starts a display and the viewer in it, in this folder. Its window must come out in this size.
+    /// Starts a display and the viewer in it, in this folder. Its picture must come out in this size.
     pub fn start_in(folder: &Path, size: [u16; 2], arguments: &[&str]) -> Self {
         Self::start_with(folder, size, arguments, &[])
     }
@@ -161,7 +165,7 @@ impl Viewer {
             _folder: None,
             connection,
             root,
-            size,
+            size: [size[0] + PANEL, size[1]],
             _server: server,
         };
         viewer.wait_for("the panel", |viewer| viewer.controls.borrow().contains_key("Reset"));

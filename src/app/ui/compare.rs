@@ -2,6 +2,7 @@
 
 use super::numbers::length;
 use super::widgets::{Layout, note_item};
+use crate::app::area::Area;
 use crate::app::panel::{Held, Panel};
 use crate::scene::CameraModel;
 use crate::settings::Settings;
@@ -19,13 +20,13 @@ pub(super) fn held(settings: &Settings, share: f32) -> Held {
 
 impl Panel {
     /// Draws the line, and moves it when it is dragged.
-    pub(super) fn divider(&mut self, ui: &Ui, layout: &mut Layout) {
+    pub(super) fn divider(&mut self, ui: &Ui, area: &Area, layout: &mut Layout) {
         let now = words(&self.settings);
         let Some(held) = &mut self.held else {
             return;
         };
-        let [width, height] = ui.io().display_size;
-        let x = (held.share * width).round();
+        let ([left, _], [width, height]) = (area.min(), area.size());
+        let x = left + (held.share * width).round();
         let _bare = (
             ui.push_style_var(StyleVar::WindowPadding([0.0; 2])),
             ui.push_style_var(StyleVar::WindowMinSize([1.0; 2])),
@@ -45,7 +46,7 @@ impl Panel {
                 ui.invisible_button("##line", [2.0 * REACH, height]);
                 note_item(ui, "Divider", layout);
                 if ui.is_item_active() {
-                    held.share = (ui.io().mouse_pos[0] / width).clamp(0.0, 1.0);
+                    held.share = ((ui.io().mouse_pos[0] - left) / width).clamp(0.0, 1.0);
                 }
                 if ui.is_item_active() || ui.is_item_hovered() {
                     ui.set_mouse_cursor(Some(MouseCursor::ResizeEW));

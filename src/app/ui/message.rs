@@ -1,7 +1,8 @@
 //! The message over the picture.
 
+use super::MARGIN;
 use super::widgets::{Layout, note_item};
-use super::{MARGIN, PANEL_WIDTH};
+use crate::app::area::Area;
 use crate::app::message::Messages;
 use imgui::{Condition, StyleColor, StyleVar, Ui, WindowFlags};
 
@@ -15,13 +16,12 @@ const FAILED: [f32; 4] = [0.48, 0.07, 0.09, 0.97];
 
 impl Messages {
     /// Draws the message at the top of the picture, and closes it when its button is pressed.
-    pub(super) fn draw(&mut self, ui: &Ui, layout: &mut Layout) {
+    pub(super) fn draw(&mut self, ui: &Ui, area: &Area, layout: &mut Layout) {
         let Some((message, opacity)) = self.in_this_frame() else {
             return;
         };
-        let [width, _] = ui.io().display_size;
-        let left = (PANEL_WIDTH + 2.0 * MARGIN).min(0.5 * width);
-        let room = (width - left - 2.0 * MARGIN).max(80.0).min(WIDTH);
+        let [left, top] = area.min();
+        let room = (area.size()[0] - 2.0 * MARGIN).clamp(80.0, WIDTH);
         let wrap = room - 2.0 * PADDING - BUTTON;
         let text_size = ui.calc_text_size_with_opts(&message.text, false, wrap);
         let width = text_size[0].min(wrap) + 2.0 * PADDING + BUTTON;
@@ -35,7 +35,7 @@ impl Messages {
         // A new window is in front of all others, so each message has a window of its own.
         ui.window(format!("##message {}", message.number))
             // Below the labels of a comparison.
-            .position([left + MARGIN, 48.0], Condition::Always)
+            .position([left + MARGIN, top + 48.0], Condition::Always)
             .size([width, text_size[1].max(ui.frame_height()) + 2.0 * PADDING], Condition::Always)
             .flags(
                 WindowFlags::NO_DECORATION

@@ -14,19 +14,23 @@ mod sampling;
 mod tolerance;
 mod widgets;
 
+use super::area::Area;
 use super::diagram::Diagram;
 use super::panel::{Panel, builtin};
 use super::telemetry;
 use crate::renderer::{Picked, Progress};
 use crate::scene::CameraModel;
 use crate::settings::Part;
-use imgui::{Condition, Ui};
-use widgets::{Layout, combo, note_item, section, tooltip};
+use imgui::{Condition, MouseCursor, StyleColor, StyleVar, Ui, WindowFlags};
+use widgets::{Folds, Layout, combo, note_item, section, tooltip};
 
-/// The width of the panel, in points.
-const PANEL_WIDTH: f32 = 320.0;
-/// The space around the panel, in points.
+/// The space around what lies over the picture, in points.
 const MARGIN: f32 = 12.0;
+/// The least height of the sections. In a lower window, the whole panel scrolls.
+const MIN_SECTIONS: f32 = 150.0;
+/// The width of the strip with which the panel is made wider, in points.
+const EDGE: f32 = 6.0;
+const BACKGROUND: [f32; 4] = [0.08, 0.09, 0.11, 1.0];
 
 /// What the panel shows besides the settings.
 pub(super) struct Status<'a> {
@@ -61,6 +65,8 @@ pub(super) enum Action {
     Optics,
     /// Show or hide the list of keys.
     Keys,
+    /// Hide everything but the picture, or show it.
+    Hide,
     /// Write the picture to the file that is named.
     SavePicture,
     /// Write the scene to the file that is named.
@@ -70,83 +76,39 @@ pub(super) enum Action {
 }
 
 impl Panel {
-    /// Draws the panel, and changes the settings as the user does.
-    pub(super) fn draw(&mut self, ui: &Ui, status: &Status<'_>) -> Option<Action> {
+    /// Draws the panel and what lies over the picture, and changes the settings as the user does.
+    pub(super) fn draw(&mut self, ui: &Ui, status: &Status<'_>, area: &Area) -> Option<Action> {
         let mut layout = Vec::new();
         let mut action = None;
-        let [_, height] = ui.io().display_size;
-        ui.window("thinlens")
-            .position([MARGIN; 2], Condition::FirstUseEver)
-            .size([PANEL_WIDTH, 0.0], Condition::Always)
-            .size_constraints([PANEL_WIDTH, 0.0], [PANEL_WIDTH, (height - 2.0 * MARGIN).max(64.0)])
-            .resizable(false)
-            .build(|| {
-                self.scene_chooser(ui, &mut layout);
-                self.rows(ui, Part::Top, &mut layout);
-                self.rows(ui, Part::Points, &mut layout);
-                self.progress(ui, status);
-                let mut button = |name, asks| {
-                    if ui.button(name) {
-                        action = Some(asks);
-                    }
-                };
-                button("Autofocus", Action::Autofocus);
-                note_item(ui, "Autofocus", &mut layout);
-                tooltip(
-                    ui,
-                    "Focuses on what is in the middle of the picture. To focus on something else, right-click it, or point at it and press F. Ctrl and the wheel move the focal plane.",
-                );
-                ui.same_line();
-                button("Reset", Action::Reset);
-                note_item(ui, "Reset", &mut layout);
-                tooltip(ui, "Restores the settings that the scene was opened with.");
-                ui.same_line();
-                ui.checkbox("Optics", &mut self.optics.open);
-                note_item(ui, "Optics", &mut layout);
-                tooltip(
-                    ui,
-                    "Draws to scale what the lens does with the light of one pixel. Click the picture to choose the pixel.",
-                );
-                for (name, asks, help) in [
-                    ("Undo", Action::Undo, "Undoes the last change (Ctrl+Z)."),
-                    ("Redo", Action::Redo, "Redoes the change that was undone last (Ctrl+Shift+Z)."),
-                    ("Compare", Action::Compare, "Holds this picture on the left, so that you see your changes beside it (C). Press again to release it."),
-                    (if self.paused { "Go on" } else { "Pause" }, Action::Pause, "Stops rendering; the picture stays as it is (P)."),
-                    ("?", Action::Keys, "Lists what the mouse and the keys do (?)."),
-                ] {
-                    button(name, asks);
-                    note_item(ui, name, &mut layout);
-                    tooltip(ui, help);
-                    ui.same_line();
-                }
-                ui.new_line();
-                section(ui, "Lens", false, &mut layout, |layout| self.lens(ui, layout));
-                if self.settings.estimator.model != CameraModel::Pinhole {
-                    section(ui, "Aperture shape", false, &mut layout, |layout| self.aperture(ui, layout));
-                }
-                section(ui, "Viewpoint", false, &mut layout, |layout| {
-                    self.rows(ui, Part::Viewpoint, layout);
-                    if ui.button("Reset camera") {
-                        action = Some(Action::ResetCamera);
-                    }
-                    note_item(ui, "Reset camera", layout);
-                    tooltip(ui, "Restores the position of the camera that the scene was opened with (Home), and nothing else.");
-                });
-                section(ui, "What is sharp", true, &mut layout, |_| self.numbers(ui, status.picked));
-                section(ui, "Light", false, &mut layout, |layout| self.rows(ui, Part::Light, layout));
-                section(ui, "Sampling", false, &mut layout, |layout| {
- self.rows(ui, Part::Sampling, layout);
-});
-                section(ui, "View", false, &mut layout, |layout| self.rows(ui, Part::View, layout));
-                section(ui, "Files", false, &mut layout, |layout| {
-                    action = self.files(ui, layout).or(action);
-                });
-                section(ui, "Device", false, &mut layout, |_| sampling::device(ui, status));
-            });
-        self.divider(ui, &mut layout);
-        self.optics.draw(ui, status.diagram, &mut layout);
-        overlay::legend(ui, &self.settings);
-        self.messages.draw(ui, &mut layout);
+        if !self.hidden {
+            let [width, _] = area.min();
+            let _style = (
+                ui.push_style_var(StyleVar::WindowRounding(0.0)),
+                ui.push_style_var(StyleVar::WindowBorderSize(0.0)),
+                ui.push_style_color(StyleColor::WindowBg, BACKGROUND),
+            );
+            ui.window("##panel")
+                .position([0.0; 2], Condition::Always)
+                // The panel covers whole pixels, and nothing else paints them.
+                .size([width.ceil(), area.max()[1].ceil()], Condition::Always)
+                .flags(
+                    WindowFlags::NO_TITLE_BAR
+                        | WindowFlags::NO_MOVE
+                        | WindowFlags::NO_RESIZE
+                        | WindowFlags::NO_COLLAPSE
+                        | WindowFlags::NO_SAVED_SETTINGS
+                        | WindowFlags::NO_BRING_TO_FRONT_ON_FOCUS,
+                )
+                .build(|| action = self.column_of_controls(ui, status, &mut layout));
+            self.edge(ui, area, &mut layout);
+        }
+        self.divider(ui, area, &mut layout);
+        if !self.hidden {
+            self.optics.draw(ui, status.diagram, area, &mut layout);
+            let optics = self.optics.open.then_some(&self.optics.placed);
+            overlay::legend(ui, &self.settings, area, optics);
+        }
+        self.messages.draw(ui, area, &mut layout);
         if layout != self.layout {
             for (name, [x, y, width, height]) in &layout {
                 log::debug!("{} '{name}' at {x} {y} {width} {height}", telemetry::CONTROL);
@@ -156,11 +118,134 @@ impl Panel {
         action
     }
 
-    /// Notes that the picture is held. The line starts in the middle of the area right of the panel.
+    /// Draws what stays in view, and below it the sections, which scroll.
+    fn column_of_controls(&mut self, ui: &Ui, status: &Status<'_>, layout: &mut Layout) -> Option<Action> {
+        let mut folds = std::mem::take(&mut self.folds);
+        self.scene_chooser(ui, layout);
+        self.rows(ui, Part::Top, layout);
+        self.rows(ui, Part::Points, layout);
+        self.progress(ui, status);
+        let mut action = self.buttons(ui, layout);
+        section(ui, "What is sharp", true, &mut folds, layout, |_| self.numbers(ui, status.picked));
+        let [_, room] = ui.content_region_avail();
+        ui.child_window("##sections").size([0.0, room.max(MIN_SECTIONS)]).build(|| {
+            action = self.sections(ui, status, &mut folds, layout).or(action);
+        });
+        self.folds = folds;
+        action
+    }
+
+    fn buttons(&mut self, ui: &Ui, layout: &mut Layout) -> Option<Action> {
+        let mut action = None;
+        let mut button = |name, asks, help| {
+            if ui.button(name) {
+                action = Some(asks);
+            }
+            note_item(ui, name, layout);
+            tooltip(ui, help);
+            ui.same_line();
+        };
+        button(
+            "Autofocus",
+            Action::Autofocus,
+            "Focuses on what is in the middle of the picture. To focus on something else, right-click it, or point at it and press F. Ctrl and the wheel move the focal plane.",
+        );
+        button("Reset", Action::Reset, "Restores the settings that the scene was opened with.");
+        ui.checkbox("Optics", &mut self.optics.open);
+        note_item(ui, "Optics", layout);
+        tooltip(
+            ui,
+            "Draws to scale what the lens does with the light of one pixel. Click the picture to choose the pixel.",
+        );
+        for (name, asks, help) in [
+            ("Undo", Action::Undo, "Undoes the last change (Ctrl+Z)."),
+            ("Redo", Action::Redo, "Redoes the change that was undone last (Ctrl+Shift+Z)."),
+            (
+                "Compare",
+                Action::Compare,
+                "Holds this picture on the left, so that you see your changes beside it (C). Press again to release it.",
+            ),
+            (
+                if self.paused { "Go on" } else { "Pause" },
+                Action::Pause,
+                "Stops rendering; the picture stays as it is (P).",
+            ),
+            ("?", Action::Keys, "Lists what the mouse and the keys do (?)."),
+        ] {
+            if ui.button(name) {
+                action = Some(asks);
+            }
+            note_item(ui, name, layout);
+            tooltip(ui, help);
+            ui.same_line();
+        }
+        ui.new_line();
+        action
+    }
+
+    fn sections(
+        &mut self,
+        ui: &Ui,
+        status: &Status<'_>,
+        folds: &mut Folds,
+        layout: &mut Layout,
+    ) -> Option<Action> {
+        let mut action = None;
+        section(ui, "Lens", false, folds, layout, |layout| self.lens(ui, layout));
+        if self.settings.estimator.model != CameraModel::Pinhole {
+            section(ui, "Aperture shape", false, folds, layout, |layout| self.aperture(ui, layout));
+        }
+        section(ui, "Viewpoint", false, folds, layout, |layout| {
+            self.rows(ui, Part::Viewpoint, layout);
+            if ui.button("Reset camera") {
+                action = Some(Action::ResetCamera);
+            }
+            note_item(ui, "Reset camera", layout);
+            tooltip(
+                ui,
+                "Restores the position of the camera that the scene was opened with (Home), and nothing else.",
+            );
+        });
+        section(ui, "Light", false, folds, layout, |layout| self.rows(ui, Part::Light, layout));
+        section(ui, "Sampling", false, folds, layout, |layout| self.rows(ui, Part::Sampling, layout));
+        section(ui, "View", false, folds, layout, |layout| self.rows(ui, Part::View, layout));
+        section(ui, "Files", false, folds, layout, |layout| action = self.files(ui, layout).or(action));
+        section(ui, "Device", false, folds, layout, |_| sampling::device(ui, status));
+        action
+    }
+
+    /// Lets the user drag the right edge of the panel. The strip lies in the panel, where no other window covers it.
+    fn edge(&mut self, ui: &Ui, area: &Area, layout: &mut Layout) {
+        let ([x, _], [_, height]) = (area.min(), area.size());
+        let _bare = (
+            ui.push_style_var(StyleVar::WindowPadding([0.0; 2])),
+            ui.push_style_var(StyleVar::WindowMinSize([1.0; 2])),
+        );
+        ui.window("##edge")
+            .position([x - EDGE, 0.0], Condition::Always)
+            .size([EDGE, height], Condition::Always)
+            .flags(
+                WindowFlags::NO_DECORATION
+                    | WindowFlags::NO_BACKGROUND
+                    | WindowFlags::NO_NAV
+                    | WindowFlags::NO_SAVED_SETTINGS
+                    | WindowFlags::NO_FOCUS_ON_APPEARING,
+            )
+            .build(|| {
+                ui.invisible_button("##line", [EDGE, height]);
+                note_item(ui, "Edge of the panel", layout);
+                if ui.is_item_active() {
+                    self.width = (ui.io().mouse_pos[0] + 0.5 * EDGE).round();
+                }
+                if ui.is_item_active() || ui.is_item_hovered() {
+                    ui.set_mouse_cursor(Some(MouseCursor::ResizeEW));
+                }
+            });
+    }
+
+    /// Notes that the picture is held. The line starts in the middle.
     pub(super) fn hold(&mut self) {
-        let width = self.settings.estimator.size[0] as f32;
-        let left = (PANEL_WIDTH + 2.0 * MARGIN) / width;
-        self.held = Some(compare::held(self.shown(), if left < 0.8 { 0.5 * (left + 1.0) } else { 0.5 }));
+        self.held = Some(compare::held(self.shown(), 0.5));
     }
 
     fn scene_chooser(&mut self, ui: &Ui, layout: &mut Layout) {

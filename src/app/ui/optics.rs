@@ -1,9 +1,10 @@
 //! The window that draws the optics of one pixel, to scale.
 
+use super::MARGIN;
 use super::numbers::length;
 use super::paper::{Color, FAINT, FRAME, LETTER, Paper, View};
-use super::widgets::{Layout, note_item, tooltip};
-use super::{MARGIN, PANEL_WIDTH};
+use super::widgets::{Layout, note_item, note_window, tooltip};
+use crate::app::area::Area;
 use crate::app::diagram::{Diagram, Line};
 use crate::app::panel::Optics;
 use glam::DVec3;
@@ -27,21 +28,27 @@ const RAYS: [u32; 2] = [3, 65];
 
 impl Optics {
     /// Draws the window, if it is open.
-    pub(super) fn draw(&mut self, ui: &Ui, diagram: Option<&Diagram>, layout: &mut Layout) {
+    pub(super) fn draw(&mut self, ui: &Ui, diagram: Option<&Diagram>, area: &Area, layout: &mut Layout) {
         if !self.open {
             return;
         }
-        let [width, height] = ui.io().display_size;
-        let left = PANEL_WIDTH + 2.0 * MARGIN;
-        let size = [(width - left - MARGIN).clamp(200.0, 1100.0), (0.46 * height).max(200.0)];
-        let mut open = true;
-        ui.window("Optics")
-            .position([left, height - size[1] - MARGIN], Condition::FirstUseEver)
-            .size(size, Condition::FirstUseEver)
+        let ([left, _], [_, bottom], [width, height]) = (area.min(), area.max(), area.size());
+        let size = [(width - 2.0 * MARGIN).clamp(200.0, 1100.0), (0.46 * height).max(200.0)];
+        let (mut open, mut placed) = (true, self.placed);
+        let mut window = ui
+            .window("Optics")
+            .position([left + MARGIN, bottom - size[1] - MARGIN], Condition::FirstUseEver)
+            .size(size, Condition::FirstUseEver);
+        if let Some([position, size]) = placed.moved_into(area) {
+            window = window.position(position, Condition::Always).size(size, Condition::Always);
+        }
+        window
             .opened(&mut open)
             // `background` paints only what the views leave free: a software device is slow to paint an area twice.
             .flags(WindowFlags::NO_BACKGROUND)
             .build(|| {
+                placed.note(ui);
+                note_window(ui, "Optics window", layout);
                 let ([left, top], [width, height]) = (ui.cursor_screen_pos(), ui.content_region_avail());
                 let top_of_papers = top + ui.frame_height_with_spacing();
                 // Without a drawing, nothing else paints the area of the views.
@@ -57,7 +64,7 @@ impl Optics {
                     None => ui.text_disabled("waiting for the device ..."),
                 }
             });
-        self.open = open;
+        (self.open, self.placed) = (open, placed);
     }
 
     fn controls(&mut self, ui: &Ui, layout: &mut Layout) {

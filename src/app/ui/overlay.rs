@@ -1,23 +1,24 @@
 //! The legend of an overlay.
 
 use super::MARGIN;
+use crate::app::area::{Area, Placed};
 use crate::settings::Settings;
 use imgui::{Condition, Ui, WindowFlags};
 
 const WIDTH: f32 = 260.0;
+/// The height of the bar with the space below it, in points.
+const BAR: f32 = 18.0;
 
-/// Draws the legend at the lower right.
-pub(super) fn legend(ui: &Ui, settings: &Settings) {
+/// Draws the legend at the lower right of the picture, or in another corner if the drawing of the optics is there.
+pub(super) fn legend(ui: &Ui, settings: &Settings, area: &Area, optics: Option<&Placed>) {
     let Some(overlay) = settings.view.overlay else {
         return;
     };
-    let [width, height] = ui.io().display_size;
     let entry = overlay.entry();
     let labels = (entry.labels)(settings.overlay_scale(overlay), settings.estimator.lens.focal_distance);
     ui.window("##legend")
-        .position([width - MARGIN, height - MARGIN], Condition::Always)
-        .position_pivot([1.0, 1.0])
-        .size([WIDTH, 0.0], Condition::Always)
+        .position(free_corner(ui, area, optics), Condition::Always)
+        .size([WIDTH, height(ui)], Condition::Always)
         .flags(
             WindowFlags::NO_DECORATION
                 | WindowFlags::NO_INPUTS
@@ -38,6 +39,21 @@ pub(super) fn legend(ui: &Ui, settings: &Settings) {
         });
 }
 
+/// A title, a bar, and a line of labels.
+fn height(ui: &Ui) -> f32 {
+    let style = ui.clone_style();
+    2.0 * (ui.text_line_height() + style.window_padding[1] + style.item_spacing[1]) + BAR
+}
+
+/// Where the legend lies in the first corner of the picture that the drawing of the optics leaves free.
+fn free_corner(ui: &Ui, area: &Area, optics: Option<&Placed>) -> [f32; 2] {
+    let (min, max, size) = (area.min(), area.max(), [WIDTH, height(ui)]);
+    let ends = [0, 1].map(|axis| [min[axis] + MARGIN, max[axis] - MARGIN - size[axis]]);
+    let corners = [[1, 1], [1, 0], [0, 1], [0, 0]].map(|[x, y]| [ends[0][x], ends[1][y]]);
+    let is_free = |corner: &&[f32; 2]| !optics.is_some_and(|placed| placed.covers([**corner, size]));
+    *corners.iter().find(is_free).unwrap_or(&corners[0])
+}
+
 /// Draws a bar that blends from colour to colour in linear light, as the overlay does.
 fn bar(ui: &Ui, colors: &[[f32; 3]]) {
     let steps = 64;
@@ -51,7 +67,7 @@ fn bar(ui: &Ui, colors: &[[f32; 3]]) {
         let [from, to] = [step, step + 1].map(|step| x + width * step as f32 / steps as f32);
         list.add_rect([from, y], [to, y + 14.0], linear.map(encoded)).filled(true).build();
     }
-    ui.dummy([width, 18.0]);
+    ui.dummy([width, BAR]);
 }
 
 /// The sRGB encoding: IEC 61966-2-1.

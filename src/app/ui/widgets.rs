@@ -3,6 +3,7 @@
 pub(super) use crate::app::panel::Layout;
 
 use imgui::{TreeNodeFlags, Ui};
+use std::collections::BTreeMap;
 
 /// Draws a control as wide as the panel, with its name above it.
 pub(super) fn named(
@@ -30,28 +31,49 @@ pub(super) fn tooltip(ui: &Ui, help: &str) {
 
 /// Notes where the last item was drawn: left, top, width and height in physical pixels.
 pub(super) fn note_item(ui: &Ui, name: &'static str, layout: &mut Layout) {
-    let scale = ui.io().display_framebuffer_scale;
     let (min, max) = (ui.item_rect_min(), ui.item_rect_max());
-    let pixels = |value: f32, axis: usize| (value * scale[axis]).round() as i32;
-    layout.push((
-        name,
-        [pixels(min[0], 0), pixels(min[1], 1), pixels(max[0] - min[0], 0), pixels(max[1] - min[1], 1)],
-    ));
+    note(ui, name, min, [max[0] - min[0], max[1] - min[1]], layout);
 }
 
-/// Draws a part of the panel that can be collapsed.
+/// Notes where the current window is.
+pub(super) fn note_window(ui: &Ui, name: &'static str, layout: &mut Layout) {
+    note(ui, name, ui.window_pos(), ui.window_size(), layout);
+}
+
+fn note(ui: &Ui, name: &'static str, min: [f32; 2], size: [f32; 2], layout: &mut Layout) {
+    let scale = ui.io().display_framebuffer_scale;
+    let pixels = |value: f32, axis: usize| (value * scale[axis]).round() as i32;
+    layout.push((name, [pixels(min[0], 0), pixels(min[1], 1), pixels(size[0], 0), pixels(size[1], 1)]));
+}
+
+/// Which sections of the panel are open, as far as the user has opened or closed them.
+pub(super) type Folds = BTreeMap<String, bool>;
+
+/// Draws a part of the panel that can be collapsed. When it is opened, the panel scrolls so far that all of it is in
+/// view, or its beginning if it is too high.
 pub(super) fn section(
     ui: &Ui,
     name: &'static str,
-    open: bool,
+    open_at_first: bool,
+    folds: &mut Folds,
     layout: &mut Layout,
     content: impl FnOnce(&mut Layout),
 ) {
-    let flags = if open { TreeNodeFlags::DEFAULT_OPEN } else { TreeNodeFlags::empty() };
+    let was_open = folds.get(name).copied().unwrap_or(open_at_first);
+    let flags = if was_open { TreeNodeFlags::DEFAULT_OPEN } else { TreeNodeFlags::empty() };
     let open = ui.collapsing_header(name, flags);
+    let top = ui.item_rect_min()[1];
     note_item(ui, name, layout);
     if open {
         content(layout);
+    }
+    if open != was_open {
+        folds.insert(name.to_owned(), open);
+    }
+    if open && !was_open {
+        let (view_top, bottom) = (ui.window_pos()[1], ui.cursor_screen_pos()[1]);
+        let hidden_below = bottom - (view_top + ui.window_size()[1]);
+        ui.set_scroll_y(ui.scroll_y() + hidden_below.min(top - view_top).max(0.0));
     }
 }
 

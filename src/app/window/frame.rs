@@ -1,10 +1,11 @@
 //! What happens in a frame of the viewer: input, the renderer's settings, and drawing.
 
+use super::super::area::Area;
 use super::super::graphics::Answer;
 use super::super::loader::{Loader, Ready};
 use super::super::ui::{Action, Status};
 use super::super::{keys, telemetry};
-use super::{FRAMES_AFTER_EVENT, OpenWindow};
+use super::{FRAMES_AFTER_EVENT, OpenWindow, area};
 use crate::error::{Error, Result};
 use crate::renderer::Pace;
 use crate::vulkan::AcquiredImage;
@@ -24,9 +25,11 @@ impl OpenWindow {
         let Some((image, size)) = self.begin_frame()? else {
             return Ok(());
         };
-        let action = self.interact(size);
-        self.apply(action, size)?;
-        self.draw(&image, size)?;
+        let area = area(&self.panel, size, self.platform.hidpi_factor());
+        let action = self.interact(&area);
+        self.apply(action, area.pixels)?;
+        self.name_window();
+        self.draw(&image, &area)?;
         self.telemetry.report(&self.panel.settings, self.panel.shown(), self.graphics.progress());
         self.telemetry.report_memory(|| self.graphics.memory());
         if let Some(since) = self.unshown_since.take() {
@@ -63,10 +66,18 @@ impl OpenWindow {
         Ok(Some((image, size)))
     }
 
+    /// Puts the name of the scene into the title of the window.
+    fn name_window(&mut self) {
+        let title = self.panel.title();
+        if title != self.title {
+            self.window.set_title(&title);
+            self.title = title;
+        }
+    }
+
     /// Draws the panel and handles the input of the mouse and the keys.
-    fn interact(&mut self, size: [u32; 2]) -> Option<Action> {
+    fn interact(&mut self, area: &Area) -> Option<Action> {
         let ui = self.imgui.new_frame();
-        ui.dockspace_over_main_viewport();
         let preparing = (!self.graphics.has_started()).then(|| "preparing ...".into());
         let status = Status {
             progress: self.graphics.progress(),
@@ -80,15 +91,16 @@ impl OpenWindow {
                 .or(preparing),
         };
         let modifiers = self.modifiers.take(ui);
-        let action = self.panel.draw(ui, &status).or_else(|| keys::pressed(ui, modifiers));
+        let action = self.panel.draw(ui, &status, area).or_else(|| keys::pressed(ui, modifiers));
         keys::help(ui, &mut self.panel.keys);
-        self.navigate.take_input(ui, modifiers, &mut self.panel.settings.estimator.camera);
+        let camera = &mut self.panel.settings.estimator.camera;
+        self.navigate.take_input(ui, modifiers, camera, area);
         let lens = &mut self.panel.settings.estimator.lens;
-        self.focus.take_input(ui, modifiers, lens, size);
+        self.focus.take_input(ui, modifiers, lens, area);
         self.focus.advance(lens);
-        self.focus.draw(ui);
-        if self.panel.optics.open {
-            self.focus.draw_pin(ui);
+        self.focus.draw(ui, area);
+        if self.panel.optics.open && !self.panel.hidden {
+            self.focus.draw_pin(ui, area);
         }
         self.dragging = ui.is_any_item_active() || self.focus.is_gliding() || self.navigate.is_moving();
         if ui.io().want_text_input {
@@ -110,10 +122,12 @@ impl OpenWindow {
 
     /// Performs the action, and passes the settings to the renderer once what they need is ready.
     fn apply(&mut self, action: Option<Action>, size: [u32; 2]) -> Result<()> {
-        if self.panel.held.is_some() && !self.graphics.holds() {
+        if self.panel.held.is_some() && !self.graphics.holds(size) {
             self.panel.held = None;
             self.graphics.let_go()?;
-            self.panel.messages.say("The held picture is gone: it does not fit the window any more.".into());
+            self.panel
+                .messages
+                .say("The held picture is gone: it does not fit the picture's new size.".into());
         }
         if let Some(action) = action {
             self.act(action)?;
@@ -181,15 +195,15 @@ impl OpenWindow {
     }
 
     /// Continues the picture, and shows it with the panel on top.
-    fn draw(&mut self, image: &AcquiredImage, size: [u32; 2]) -> Result<()> {
+    fn draw(&mut self, image: &AcquiredImage, area: &Area) -> Result<()> {
         let finished_before = self.graphics.finished();
         let budget = if self.dragging { DRAGGING_BUDGET } else { RESTING_BUDGET };
         let pace = (!self.rests()).then_some(Pace { budget, preview: true });
         let rays = self.panel.optics.open.then_some(self.panel.optics.rays);
         let can_ask = self.graphics.answers();
         let question = if can_ask { self.focus.question(&self.panel.shown().estimator, rays) } else { None };
-        let split = self.panel.held.as_ref().map_or(0.0, |held| held.share * size[0] as f32);
-        self.graphics.draw(image, &mut self.imgui, pace, question, split.round() as u32)?;
+        let split = self.panel.held.as_ref().map_or(0.0, |held| held.share * area.pixels[0] as f32);
+        self.graphics.draw(image, &mut self.imgui, pace, question, area.corner, split.round() as u32)?;
         if self.focus.is_busy() || self.navigate.is_moving() {
             self.frames_to_draw = self.frames_to_draw.max(1);
         }
@@ -237,6 +251,12 @@ impl OpenWindow {
             Action::Pause => self.panel.paused ^= true,
             Action::Optics => self.panel.optics.open ^= true,
             Action::Keys => self.panel.keys ^= true,
+            Action::Hide => {
+                self.panel.hidden ^= true;
+                if self.panel.hidden {
+                    self.panel.messages.say("Press H to show the panel again.".into());
+                }
+            }
             // `interact` has done it already, because imgui owns the clipboard.
             Action::CopyCommand => {}
             Action::SaveScene => self.panel.save_scene(),

@@ -3,6 +3,7 @@
 mod frame;
 
 use super::Options;
+use super::area::Area;
 use super::clipboard::Clipboard;
 use super::focus::Focus;
 use super::graphics::Graphics;
@@ -26,7 +27,8 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
 use winit::raw_window_handle::HasDisplayHandle;
 use winit::window::{Window, WindowId};
 
-const DEFAULT_SIZE: [u32; 2] = [1280, 720];
+/// The window's size at the first start, in points.
+const DEFAULT_SIZE: [f64; 2] = [1280.0, 720.0];
 /// imgui needs one frame to notice an event and another to draw the effect.
 const FRAMES_AFTER_EVENT: u32 = 3;
 /// imgui handles one press or release per frame, even when several arrive at once. This is the most frames that are
@@ -70,6 +72,8 @@ struct OpenWindow {
     idle: bool,
     /// Whether a control was held, or the camera or the focal plane was moving, in the last frame.
     dragging: bool,
+    /// The title of the window.
+    title: String,
     telemetry: Telemetry,
     loader: Loader,
     /// The number of times that the device was lost.
@@ -185,11 +189,30 @@ impl ApplicationHandler for Viewer {
     fn exiting(&mut self, _event_loop: &ActiveEventLoop) {
         // Settings that ended the viewer must not end it again at the next start.
         if let Some(open) = self.open.as_ref().filter(|_| self.error.is_none()) {
-            open.panel.memory().save();
+            let mut sizes = self.options.memory.sizes.clone();
+            let size = open.window.inner_size();
+            sizes.insert(percent(open.window.scale_factor()), [size.width, size.height]);
+            open.panel.memory(sizes).save();
         }
         // The loader cannot end in the middle of a step. So the window closes before the loader is waited for.
         self.closing = self.open.take().map(OpenWindow::close);
     }
+}
+
+/// The scale of the display on which the window will probably open.
+fn scale_of(event_loop: &ActiveEventLoop) -> f64 {
+    let monitor = event_loop.primary_monitor().or_else(|| event_loop.available_monitors().next());
+    monitor.map_or(1.0, |monitor| monitor.scale_factor())
+}
+
+fn percent(scale: f64) -> u32 {
+    (100.0 * scale).round() as u32
+}
+
+/// The part of a window of this many pixels that the picture takes.
+fn area(panel: &Panel, window: [u32; 2], scale: f64) -> Area {
+    let scale = scale as f32;
+    Area::beside(panel.column(window[0] as f32 / scale), window, scale)
 }
 
 /// Writes input events to the log. Returns whether a button or a key changed.
@@ -223,16 +246,26 @@ impl OpenWindow {
         instance: &Arc<Instance>,
         waker: &EventLoopProxy<()>,
     ) -> Result<Self> {
-        let [width, height] = options.size.or(options.memory.size).unwrap_or(DEFAULT_SIZE);
+        let mut panel = Panel::new(options);
+        let scale = scale_of(event_loop);
+        let [width, height] = match (options.size, options.memory.sizes.get(&percent(scale))) {
+            // The panel stands beside the picture.
+            (Some([width, height]), _) => {
+                let column = (f64::from(panel.column(f32::INFINITY)) * scale).round() as u32;
+                [width + column, height]
+            }
+            (None, Some(size)) => *size,
+            (None, None) => DEFAULT_SIZE.map(|points| (points * scale).round() as u32),
+        };
         let attributes = Window::default_attributes()
-            .with_title("thinlens")
+            .with_title(panel.title())
             .with_min_inner_size(PhysicalSize::new(64, 64))
             .with_inner_size(PhysicalSize::new(width, height));
         let window = event_loop.create_window(attributes);
         let window = Arc::new(window.map_err(|error| Error::Window(error.to_string()))?);
-        let mut panel = Panel::new(options);
         let size = window.inner_size();
-        panel.settings.estimator.size = [size.width, size.height].map(|extent| extent.clamp(1, MAX_EXTENT));
+        let area = area(&panel, [size.width, size.height], window.scale_factor());
+        panel.settings.estimator.size = area.pixels.map(|extent| extent.clamp(1, MAX_EXTENT));
         let graphics = Graphics::new(&window, instance, &options.device)?;
         let loader = Loader::new(graphics.device(), &panel.settings, waker.clone());
 
@@ -242,8 +275,7 @@ impl OpenWindow {
         let has_clipboard = clipboard.is_there();
         imgui.set_clipboard_backend(clipboard);
         imgui.io_mut().config_windows_move_from_title_bar_only = true;
-        imgui.io_mut().config_flags |=
-            imgui::ConfigFlags::NAV_ENABLE_KEYBOARD | imgui::ConfigFlags::DOCKING_ENABLE;
+        imgui.io_mut().config_flags |= imgui::ConfigFlags::NAV_ENABLE_KEYBOARD;
         let mut platform = WinitPlatform::new(&mut imgui);
         platform.attach_window(imgui.io_mut(), &window, HiDpiMode::Default);
         let mut open = Self {
@@ -262,6 +294,7 @@ impl OpenWindow {
             frames_to_draw: FRAMES_AFTER_EVENT,
             idle: false,
             dragging: false,
+            title: String::new(),
             telemetry: Telemetry::default(),
             loader,
             losses: 0,

@@ -1,6 +1,6 @@
 //! What a user does with the pointer and the keys, by way of xdotool.
 
-use super::Viewer;
+use super::{PANEL, Viewer};
 use std::process::Command;
 
 /// After an event the viewer draws three frames at least. Two see what comes of it, and are over when the third
@@ -104,12 +104,16 @@ impl Viewer {
         self.point(self.size.map(|extent| i32::from(extent) - 5));
     }
 
-    /// Gives the window another size.
-    pub fn resize(&mut self, size: [u16; 2]) {
-        let [width, height] = size;
-        self.xdotool(&format!("search --class thinlens windowsize {width} {height}"));
+    /// Gives the window another size, with which the picture has this one.
+    pub fn resize(&mut self, [width, height]: [u16; 2]) {
+        self.size = [width + PANEL, height];
+        self.xdotool(&format!("search --class thinlens windowsize {} {height}", self.size[0]));
         let shown = format!("of {width}x{height}");
         self.wait_for("another size", |viewer| viewer.last_shown.borrow().contains(&shown));
-        self.size = size;
+    }
+
+    /// Where a pixel of the picture is in the window.
+    pub fn in_window(pixel: [u32; 2]) -> [i32; 2] {
+        [pixel[0].cast_signed() + i32::from(PANEL), pixel[1].cast_signed()]
     }
 }

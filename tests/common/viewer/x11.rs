@@ -13,9 +13,6 @@ use x11rb::protocol::xproto::{
 };
 use x11rb::wrapper::ConnectionExt as _;
 
-/// Right of the panel.
-const PICTURE_LEFT: usize = 340;
-
 impl Viewer {
     /// What the screen shows of a rectangle: left, top, width, height.
     pub fn screen(&self, [left, top]: [i16; 2], [width, height]: [u16; 2]) -> Vec<[u8; 3]> {
@@ -24,24 +21,32 @@ impl Viewer {
         data.chunks_exact(4).map(|pixel| [pixel[2], pixel[1], pixel[0]]).collect()
     }
 
-    /// What the screen shows of the window, right of the panel.
+    /// The size of the picture that was shown last.
+    pub fn picture_size(&self) -> [u16; 2] {
+        let shown = self.last_shown.borrow();
+        let size = shown.rsplit(' ').next().and_then(|size| size.split_once('x')).expect("a size");
+        [size.0, size.1].map(|extent| extent.parse().expect("a number"))
+    }
+
+    /// What the screen shows of the picture, which stands at the right.
     pub fn picture(&self) -> Vec<[u8; 3]> {
-        right_of_panel(&self.screen([0, 0], self.size), usize::from(self.size[0]))
+        let size = self.picture_size();
+        self.screen([(self.size[0] - size[0]).cast_signed(), 0], size)
     }
 
     /// Waits until the screen shows what `render` gives, but for `tolerance` levels of a channel.
     pub fn expect_picture(&self, what: &str, tolerance: u8, render: &[&str]) {
-        self.expect_rows(what, usize::from(self.size[1]), tolerance, render);
+        self.expect_rows(what, usize::from(self.picture_size()[1]), tolerance, render);
     }
 
     /// Waits as [`Self::expect_picture`] does, but compares only the upper rows: there may be a legend below.
     pub fn expect_rows(&self, what: &str, rows: usize, tolerance: u8, render: &[&str]) {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        let size = format!("{}x{}", self.size[0], self.size[1]);
-        let png = render_png(folder.path(), &[&["--size", &size], render].concat());
-        let expected = right_of_panel(&decode_png(&png).1, usize::from(self.size[0]));
+        let [width, height] = self.picture_size();
+        let size = format!("{width}x{height}");
+        let expected = decode_png(&render_png(folder.path(), &[&["--size", &size], render].concat())).1;
         let deadline = Instant::now() + PATIENCE;
-        let compared = rows * (usize::from(self.size[0]) - PICTURE_LEFT);
+        let compared = rows * usize::from(width);
         loop {
             let shown = self.picture();
             let worst = difference(&shown[..compared], &expected[..compared]);
@@ -124,10 +129,6 @@ impl Viewer {
         assert!(status.success(), "{status}: {log:#?}");
         log
     }
-}
-
-fn right_of_panel(pixels: &[[u8; 3]], width: usize) -> Vec<[u8; 3]> {
-    pixels.chunks_exact(width).flat_map(|row| row[PICTURE_LEFT..].to_vec()).collect()
 }
 
 /// The largest difference of a channel.
