@@ -1,7 +1,7 @@
 //! The command line: parse, choose window or file, print the error.
 
 use std::process::ExitCode;
-use thinlens::cli::{self, Command, RenderArgs, ViewArgs};
+use thinlens::cli::{self, Command, RenderArgs, SettingsArgs, ViewArgs};
 use thinlens::error::{Error, Result};
 use thinlens::settings::Settings;
 use thinlens::{app, bench, interrupt, output, verify};
@@ -60,17 +60,28 @@ fn run(command: Command) -> Result<()> {
 
 fn view(args: &ViewArgs) -> Result<()> {
     let (memory, device) = (app::Memory::load(), args.device.choice());
-    let named = || output::load(false, || args.settings.for_viewer());
+    let scene = args.settings.scene();
+    let picture = output::PictureFormat::of(scene);
+    // A saved picture has settings of its own.
+    let chosen = |of_scene: fn(&SettingsArgs) -> Result<Settings>| match picture {
+        Some(_) => args.settings.of_picture(&output::Origin::read(scene)?.arguments),
+        None => of_scene(&args.settings),
+    };
+    let named = || output::load(false, || chosen(SettingsArgs::for_viewer));
     let again = args.settings.is_plain() && !memory.arguments.is_empty();
     // What was there the last time may be gone by now.
     let (settings, initial, message) = match again.then(|| Settings::of_arguments(&memory.arguments)) {
         Some(Ok(settings)) => (settings.clone(), settings.of_scene_alone(), None),
         Some(Err(error)) => (named()?, named()?, Some(error.to_string())),
-        None => named().map(|settings| (settings.clone(), settings, None))?,
+        None => {
+            let settings = named()?;
+            let initial = if picture.is_some() { settings.of_scene_alone() } else { settings.clone() };
+            (settings, initial, None)
+        }
     };
     let size = args.settings.size();
     match app::run(app::Options { settings, initial, size, memory, message, device: device.clone() }) {
-        Err(Error::NoDisplay(why)) => output::render_instead(args.settings.for_render()?, device, &why),
+        Err(Error::NoDisplay(why)) => output::render_instead(chosen(SettingsArgs::for_render)?, device, &why),
         outcome => outcome,
     }
 }

@@ -64,6 +64,42 @@ fn x11_is_used_where_no_compositor_answers() {
     }
 }
 
+/// Catches a file manager's way to open a file, `thinlens FILE`, that is refused, and a saved picture that is rendered with
+/// other settings than its own. Without a display, the viewer writes a file instead of opening a window.
+#[test]
+fn a_file_alone_is_viewed() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    let view = |arguments: &[&str]| {
+        let mut command = common::thinlens(folder);
+        let run: common::Run = command
+            .args(arguments)
+            .env("XDG_STATE_HOME", folder)
+            .env("DISPLAY", ":4711")
+            .env_remove("WAYLAND_DISPLAY")
+            .env_remove("WAYLAND_SOCKET")
+            .output()
+            .expect("it starts")
+            .into();
+        run
+    };
+    let small = ["--size", "32x24", "-n", "1"];
+    std::fs::write(folder.join("a scene.toml"), include_str!("../src/scene/builtin/passing.toml"))
+        .expect("a file");
+    let picture = common::render_png(folder, &[&["passing"], &small[..]].concat());
+    std::fs::write(folder.join("saved.png"), picture).expect("a file");
+    for name in ["passing", "a scene.toml", "saved.png"] {
+        let run = view(&[&[name], &small[..]].concat());
+        assert_eq!(run.code, 0, "{name}: {}", run.stderr);
+        assert!(run.stderr.contains("no display"), "{name}: {}", run.stderr);
+        std::fs::remove_file(folder.join("thinlens.png")).expect("a picture");
+    }
+    let run = view(&["gone.obj"]);
+    assert!(run.code == 1 && run.stderr.contains("gone.obj: there is no such file"), "{}", run.stderr);
+    let run = view(&["nonsense"]);
+    assert!(run.code == 2 && run.stderr.contains("unrecognized subcommand"), "{}", run.stderr);
+}
+
 /// Catches a file that is not written where there is no display at all, whatever is named.
 #[test]
 fn with_dead_displays_alone_a_file_is_written() {

@@ -145,3 +145,101 @@ fn windows_stay_within_reach() {
     viewer.wait_for("the drawing in the window", |viewer| right(viewer) <= 820);
     viewer.close();
 }
+
+/// Types a name into a field in place of what is there.
+fn type_into(viewer: &Viewer, field: &str, text: &str) {
+    // Without a window manager nobody else does.
+    viewer.xdotool("search --class thinlens windowfocus --sync");
+    let [x, y, _, height] = viewer.controls.borrow()[field];
+    viewer.point([x + height, y + height / 2]);
+    viewer.hands("click 1", 0);
+    viewer.hands("keydown ctrl", 1);
+    viewer.hands("key a", 1);
+    viewer.hands("keyup ctrl", 0);
+    for letter in text.chars() {
+        let key = match letter {
+            '/' => "slash".to_owned(),
+            '~' => "asciitilde".to_owned(),
+            '.' => "period".to_owned(),
+            '-' => "minus".to_owned(),
+            letter => letter.to_string(),
+        };
+        viewer.hands(&format!("key {key}"), 0);
+    }
+}
+
+/// Catches a file that is replaced without a question, an answer that is not heard, and `~` that is no folder.
+#[test]
+fn a_typed_name_replaces_no_file_unasked() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let home = folder.path().canonicalize().expect("a folder");
+    let arguments = ["--size", "500x900", "--validation", "-n", "2"];
+    let variables = [("HOME", home.to_str().expect("a plain path"))];
+    let viewer = Viewer::start_with(&home, [500, 900], &arguments, &variables);
+    viewer.wait_until_done();
+    let file = home.join("my.png");
+    std::fs::write(&file, "mine").expect("a file");
+    viewer.click("Files", |viewer| viewer.controls.borrow().contains_key("Save picture"));
+    type_into(&viewer, "Picture file", "~/my.png");
+    let has = |name: &'static str| move |viewer: &Viewer| viewer.controls.borrow().contains_key(name);
+    viewer.click("Save picture", has("Replace it"));
+    assert_eq!(std::fs::read(&file).expect("a file"), b"mine", "it is replaced unasked");
+    let second = home.join("my-2.png");
+    let said = |file: &std::path::Path| format!("saved {}", file.display());
+    let says = |text: String| move |viewer: &Viewer| *viewer.message.borrow() == text;
+    viewer.click("Keep both", says(said(&second)));
+    assert_eq!(std::fs::read(&file).expect("a file"), b"mine", "it is not kept");
+    assert!(second.exists());
+
+    type_into(&viewer, "Picture file", "~/my.png");
+    viewer.controls.borrow_mut().remove("Replace it");
+    viewer.click("Save picture", has("Replace it"));
+    viewer.click("Replace it", says(said(&file)));
+    assert_ne!(std::fs::read(&file).expect("a file"), b"mine", "it is not replaced");
+    viewer.close();
+}
+
+/// Catches a save that does not say how many points there are, and one that never comes, or comes too early.
+#[test]
+fn an_early_save_says_so_and_comes_again_when_done() {
+    let viewer = Viewer::start([300, 720], &["-n", "150"]);
+    viewer.until("a pause", |viewer| viewer.controls.borrow().contains_key("Go on"), || viewer.press("p"));
+    viewer.rest();
+    let (samples, _) = *viewer.shown.borrow();
+    assert!(samples < 150, "{samples} points");
+    viewer.until(
+        "an early save",
+        |viewer| viewer.message.borrow().contains("thinlens.png"),
+        || viewer.press("ctrl+s"),
+    );
+    let early = format!("with {samples} of 150 points");
+    assert!(viewer.message.borrow().contains(&early), "{}", viewer.message.borrow());
+    viewer.wait_for("the offer", |viewer| viewer.controls.borrow().contains_key("Save when done"));
+    viewer.click_once("Save when done");
+    assert!(!viewer.folder.join("thinlens-2.png").exists(), "it is saved before it is done");
+    viewer.press("p");
+    viewer.wait_until_done();
+    viewer.wait_for("the save", |viewer| viewer.message.borrow().ends_with("thinlens-2.png"));
+    viewer.close();
+}
+
+/// Catches sliders that go away with the lens, so that everything below them jumps.
+#[test]
+fn a_pinhole_moves_no_control() {
+    let controls = |camera: &str| {
+        let viewer = Viewer::start([500, 900], &["-n", "2", "--camera", camera]);
+        viewer.wait_until_done();
+        let controls = viewer.controls.borrow().clone();
+        let before = *viewer.state.borrow();
+        if camera == "pinhole" {
+            viewer.drag("Lens diameter", &[0.5, 0.6], |_| true);
+            assert_eq!(*viewer.state.borrow(), before, "a pinhole has a diameter");
+        }
+        viewer.close();
+        controls
+    };
+    let (lens, pinhole) = (controls("thin-lens"), controls("pinhole"));
+    for name in ["Lens diameter", "Focal plane distance", "Autofocus", "What is sharp"] {
+        assert_eq!(lens[name], pinhole[name], "{name} moves");
+    }
+}

@@ -27,6 +27,14 @@ impl<T: Clone + PartialEq> History<T> {
         }
     }
 
+    pub(super) fn can_undo(&self) -> bool {
+        !self.past.is_empty()
+    }
+
+    pub(super) fn can_redo(&self) -> bool {
+        !self.undone.is_empty()
+    }
+
     /// Undoes the last change. `None` if there is nothing to undo.
     pub(super) fn undo(&mut self) -> Option<T> {
         let before = self.past.pop()?;

@@ -3,11 +3,11 @@
 use super::Options;
 use super::area::Placed;
 use super::memory::Memory;
-use super::message::Messages;
-use super::save_as::{self, Files, absolute};
+use super::message::{Kind, Messages, Offer};
+use super::save_as::{self, Files, SaveAs, absolute};
 use crate::error::{Error, Result};
 use crate::output::{self, Origin, PictureFormat};
-use crate::scene::{self, ApertureImage, BUILTINS, SceneRef};
+use crate::scene::{self, ApertureImage, BUILTINS, Builtin, SceneRef};
 use crate::settings::{Called, Settings};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -43,6 +43,8 @@ pub(super) struct Panel {
     /// The picture that is held for comparison, if there is one.
     pub(super) held: Option<Held>,
     pub(super) paused: bool,
+    /// Whether the picture is to be saved once it has all of its points.
+    pub(super) save_when_done: bool,
     pub(super) keys: bool,
     /// The width of the panel in points, as the user has set it.
     pub(super) width: f32,
@@ -89,8 +91,8 @@ pub(super) struct State {
     initial: Settings,
 }
 
-pub(super) fn builtin(name: &Path) -> Option<&'static str> {
-    BUILTINS.iter().map(|builtin| builtin.name).find(|builtin| Path::new(builtin) == name)
+pub(super) fn builtin(name: &Path) -> Option<&'static Builtin> {
+    BUILTINS.iter().find(|builtin| Path::new(builtin.name) == name)
 }
 
 impl Panel {
@@ -112,6 +114,7 @@ impl Panel {
             optics: Optics { open: options.memory.optics, ..Optics::default() },
             held: None,
             paused: false,
+            save_when_done: false,
             keys: false,
             width: options.memory.panel_width.unwrap_or(WIDTH),
             hidden: false,
@@ -250,20 +253,46 @@ impl Panel {
         self.recent.truncate(MAX_RECENT);
     }
 
-    /// The file to save the picture to.
-    pub(super) fn picture_file(&mut self) -> PathBuf {
-        self.files.picture.file()
+    /// The file to save to. `None` if the user has to be asked first whether to replace a file.
+    pub(super) fn file_for(&mut self, kind: Kind) -> Option<PathBuf> {
+        match self.save_as(kind).file() {
+            Ok(file) => Some(file),
+            Err(file) => {
+                self.messages.ask(
+                    format!("{} is there already.", file.display()),
+                    vec![Offer::Replace(kind), Offer::KeepBoth(kind)],
+                );
+                None
+            }
+        }
     }
 
-    /// Reports that the picture was saved, and chooses a new name for the next one.
-    pub(super) fn picture_is_saved(&mut self, file: &Path) {
+    /// The name of the file that such a thing is saved to.
+    pub(super) fn save_as(&mut self, kind: Kind) -> &mut SaveAs {
+        match kind {
+            Kind::Picture => &mut self.files.picture,
+            Kind::Scene => &mut self.files.scene,
+        }
+    }
+
+    /// Reports that the picture was saved with this many points per pixel, and chooses a new name for the next one.
+    pub(super) fn picture_is_saved(&mut self, file: &Path, samples: u32) {
         self.files.picture.suggest_next();
-        self.messages.say(format!("saved {}", file.display()));
+        self.save_when_done = false;
+        let (file, target) = (file.display(), self.settings.samples);
+        if samples < target {
+            let text = format!("saved {file}, with {samples} of {target} points per pixel");
+            self.messages.say_and_offer(text, Offer::SaveWhenDone);
+        } else {
+            self.messages.say(format!("saved {file}"));
+        }
     }
 
     /// Saves the scene, and reports the file or the error.
     pub(super) fn save_scene(&mut self) {
-        let file = self.files.scene.file();
+        let Some(file) = self.file_for(Kind::Scene) else {
+            return;
+        };
         if let Err(error) = output::save_scene(&self.settings, &file) {
             self.messages.fail(error.to_string());
             return;

@@ -17,22 +17,26 @@ pub(super) struct Files {
 /// The name of a file to save to.
 pub(super) struct SaveAs {
     pub(super) file: String,
-    /// Whether the name is a suggestion. The user has not typed it, so it must not overwrite a file.
+    /// Whether the name is a suggestion, and not typed by the user. Then the next name that is free will do as well.
     pub(super) offered: bool,
+    /// Whether the user wants to replace the file that has the name.
+    pub(super) replaces: bool,
 }
 
 impl SaveAs {
     pub(super) fn new(file: &str) -> Self {
-        Self { file: unused_name(file), offered: true }
+        Self { file: unused_name(file), offered: true, replaces: false }
     }
 
-    /// The path of the file to save to now.
-    pub(super) fn file(&mut self) -> PathBuf {
+    /// The path of the file to save to now. An error has the path of a file that is there already and that the user has
+    /// not asked to replace.
+    pub(super) fn file(&mut self) -> Result<PathBuf, PathBuf> {
         if self.offered {
             // The file may have been created since the name was suggested.
             self.file = unused_name(&self.file);
         }
-        typed(Path::new(self.file.trim()))
+        let file = typed(Path::new(self.file.trim()));
+        if self.replaces || !file.exists() { Ok(file) } else { Err(file) }
     }
 
     /// Suggests a new name, after the file was saved.

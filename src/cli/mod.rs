@@ -5,7 +5,7 @@ mod settings;
 use crate::error::Result;
 use crate::scene::{self, BUILTINS, SceneRef};
 use crate::settings::{DEFAULT_SAMPLES, DeviceChoice, Place, Settings, Sweep, size};
-use clap::{ArgAction, Args, Parser, Subcommand};
+use clap::{ArgAction, Args, CommandFactory, Parser, Subcommand};
 pub use settings::SettingsArgs;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -23,6 +23,7 @@ const SWEPT_F_NUMBERS: [f64; 4] = [2.8, 5.6, 11.0, 32.0];
     args_override_self = true,
     after_help = "Try:\n  \
         thinlens                                       opens the viewer, with sliders for the lens\n  \
+        thinlens bunny.obj                             opens a scene, a mesh or a saved picture in the viewer\n  \
         thinlens render -o picture.png                 renders the default scene to a file\n  \
         thinlens render -o sharp.png --lens-diameter 0 renders it through a pinhole\n  \
         thinlens render suffern-boxes -o boxes.exr     saves linear values and sample counts\n  \
@@ -199,7 +200,8 @@ pub struct DeviceArgs {
 
 /// The arguments that the program was started with. Ends the program if they are wrong or ask for help.
 pub fn parse() -> Cli {
-    Cli::try_parse().unwrap_or_else(|error| {
+    let arguments: Vec<OsString> = std::env::args_os().collect();
+    Cli::try_parse_from(with_command(&arguments)).unwrap_or_else(|error| {
         // clap takes a file name that begins with a dash for an option.
         let is_file = |word: &OsString| {
             let name = Path::new(word).extension().and_then(|extension| extension.to_str());
@@ -214,6 +216,28 @@ pub fn parse() -> Cli {
         }
         std::process::exit(error.exit_code());
     })
+}
+
+/// The arguments, with the command `view` put in if they start with a scene or a file and no command: this is how a file
+/// manager opens a file.
+fn with_command(arguments: &[OsString]) -> Vec<OsString> {
+    let is_command = |name: &OsString| {
+        name == "help" || Cli::command().get_subcommands().any(|known| *name == *known.get_name())
+    };
+    let mut arguments = arguments.to_vec();
+    let names_scene = arguments.get(1).is_some_and(|first| {
+        let path = Path::new(first);
+        let is_file = path.extension().is_some_and(|ending| {
+            ["toml", "obj", "png", "exr"].iter().any(|known| ending.eq_ignore_ascii_case(known))
+        });
+        let is_builtin = || BUILTINS.iter().any(|builtin| *first == *builtin.name);
+        let is_option = first.as_encoded_bytes().starts_with(b"-");
+        !is_option && !is_command(first) && (is_file || is_builtin() || path.exists())
+    });
+    if names_scene {
+        arguments.insert(1, "view".into());
+    }
+    arguments
 }
 
 impl DeviceArgs {

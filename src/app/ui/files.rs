@@ -1,14 +1,15 @@
 //! The part of the panel for opening and saving files.
 
 use super::Action;
-use super::widgets::{Layout, combo, named, note_item, tooltip};
+use super::widgets::{LONGEST, Layout, combo, from_end, named, note_item, pressed, tooltip};
 use crate::app::panel::Panel;
 use crate::app::save_as::SaveAs;
+use crate::renderer::Progress;
 use imgui::Ui;
 use std::path::PathBuf;
 
 impl Panel {
-    pub(super) fn files(&mut self, ui: &Ui, layout: &mut Layout) -> Option<Action> {
+    pub(super) fn files(&mut self, ui: &Ui, progress: &Progress, layout: &mut Layout) -> Option<Action> {
         let mut action = None;
         let mut wanted: Option<PathBuf> = None;
         let mut typed = None;
@@ -19,7 +20,7 @@ impl Panel {
             for (number, file) in self.recent.iter().enumerate() {
                 // imgui needs an id, because two files may be shown by the same name.
                 let _id = ui.push_id_usize(number);
-                if ui.selectable(file.to_string_lossy()) {
+                if ui.selectable(from_end(ui, &file.to_string_lossy(), LONGEST)) {
                     wanted = Some(file.clone());
                 }
                 note_item(ui, "Recent file", layout);
@@ -55,6 +56,14 @@ impl Panel {
         };
         button("Save picture", Action::SavePicture, "Writes the picture as it is now (Ctrl+S).");
         ui.same_line();
+        ui.disabled(progress.samples >= self.settings.samples, || {
+            let _pressed = self.save_when_done.then(|| pressed(ui));
+            button(
+                "Save when done",
+                Action::SaveWhenDone,
+                "Writes the picture once it has all of its points. Press again to change your mind.",
+            );
+        });
         button(
             "Copy command line",
             Action::CopyCommand,
@@ -88,5 +97,7 @@ impl Panel {
 }
 
 fn edit(ui: &Ui, id: String, save_as: &mut SaveAs) {
-    save_as.offered &= !ui.input_text(id, &mut save_as.file).build();
+    if ui.input_text(id, &mut save_as.file).build() {
+        (save_as.offered, save_as.replaces) = (false, false);
+    }
 }

@@ -16,13 +16,14 @@ mod widgets;
 
 use super::area::Area;
 use super::diagram::Diagram;
+use super::message::Offer;
 use super::panel::{Panel, builtin};
 use super::telemetry;
 use crate::renderer::{Picked, Progress};
 use crate::scene::CameraModel;
 use crate::settings::Part;
 use imgui::{Condition, MouseCursor, StyleColor, StyleVar, Ui, WindowFlags};
-use widgets::{Folds, Layout, combo, note_item, section, tooltip};
+use widgets::{Folds, LONGEST, Layout, combo, from_end, note_item, pressed, section, tooltip};
 
 /// The space around what lies over the picture, in points.
 const MARGIN: f32 = 12.0;
@@ -35,6 +36,9 @@ const BACKGROUND: [f32; 4] = [0.08, 0.09, 0.11, 1.0];
 /// What the panel shows besides the settings.
 pub(super) struct Status<'a> {
     pub(super) progress: Progress,
+    /// Whether there is a change to undo or to redo.
+    pub(super) can_undo: bool,
+    pub(super) can_redo: bool,
     pub(super) device: &'a str,
     /// What is under the pointer, while the pointer is over the picture.
     pub(super) picked: Option<&'a Picked>,
@@ -69,6 +73,10 @@ pub(super) enum Action {
     Hide,
     /// Write the picture to the file that is named.
     SavePicture,
+    /// Write the picture once it has all of its points, or not.
+    SaveWhenDone,
+    /// Do what a message offers.
+    Accept(Offer),
     /// Write the scene to the file that is named.
     SaveScene,
     /// Put the command that renders the picture into the clipboard.
@@ -108,7 +116,7 @@ impl Panel {
             let optics = self.optics.open.then_some(&self.optics.placed);
             overlay::legend(ui, &self.settings, area, optics);
         }
-        self.messages.draw(ui, area, &mut layout);
+        action = self.messages.draw(ui, area, &mut layout).map(Action::Accept).or(action);
         if layout != self.layout {
             for (name, [x, y, width, height]) in &layout {
                 log::debug!("{} '{name}' at {x} {y} {width} {height}", telemetry::CONTROL);
@@ -122,10 +130,10 @@ impl Panel {
     fn column_of_controls(&mut self, ui: &Ui, status: &Status<'_>, layout: &mut Layout) -> Option<Action> {
         let mut folds = std::mem::take(&mut self.folds);
         self.scene_chooser(ui, layout);
-        self.rows(ui, Part::Top, layout);
+        self.main_sliders(ui, layout);
         self.rows(ui, Part::Points, layout);
         self.progress(ui, status);
-        let mut action = self.buttons(ui, layout);
+        let mut action = self.buttons(ui, status, layout);
         section(ui, "What is sharp", true, &mut folds, layout, |_| self.numbers(ui, status.picked));
         let [_, room] = ui.content_region_avail();
         ui.child_window("##sections").size([0.0, room.max(MIN_SECTIONS)]).build(|| {
@@ -135,7 +143,18 @@ impl Panel {
         action
     }
 
-    fn buttons(&mut self, ui: &Ui, layout: &mut Layout) -> Option<Action> {
+    /// Draws the sliders of the lens or the hole. A pinhole has none: those of the lens are greyed, so that nothing moves.
+    fn main_sliders(&mut self, ui: &Ui, layout: &mut Layout) {
+        if self.settings.estimator.model == CameraModel::Pinhole {
+            let mut as_lens = self.settings.clone();
+            as_lens.estimator.model = CameraModel::ThinLens;
+            ui.disabled(true, || rows::rows(ui, Part::Top, &mut as_lens, &self.initial, layout));
+        } else {
+            self.rows(ui, Part::Top, layout);
+        }
+    }
+
+    fn buttons(&mut self, ui: &Ui, status: &Status<'_>, layout: &mut Layout) -> Option<Action> {
         let mut action = None;
         let mut button = |name, asks, help| {
             if ui.button(name) {
@@ -172,9 +191,19 @@ impl Panel {
             ),
             ("?", Action::Keys, "Lists what the mouse and the keys do (?)."),
         ] {
-            if ui.button(name) {
-                action = Some(asks);
-            }
+            let (can, is_on) = match asks {
+                Action::Undo => (status.can_undo, false),
+                Action::Redo => (status.can_redo, false),
+                Action::Compare => (true, self.held.is_some()),
+                Action::Pause => (true, self.paused),
+                _ => (true, self.keys),
+            };
+            ui.disabled(!can, || {
+                let _pressed = is_on.then(|| pressed(ui));
+                if ui.button(name) {
+                    action = Some(asks);
+                }
+            });
             note_item(ui, name, layout);
             tooltip(ui, help);
             ui.same_line();
@@ -192,9 +221,9 @@ impl Panel {
     ) -> Option<Action> {
         let mut action = None;
         section(ui, "Lens", false, folds, layout, |layout| self.lens(ui, layout));
-        if self.settings.estimator.model != CameraModel::Pinhole {
+        ui.disabled(self.settings.estimator.model == CameraModel::Pinhole, || {
             section(ui, "Aperture shape", false, folds, layout, |layout| self.aperture(ui, layout));
-        }
+        });
         section(ui, "Viewpoint", false, folds, layout, |layout| {
             self.rows(ui, Part::Viewpoint, layout);
             if ui.button("Reset camera") {
@@ -209,7 +238,9 @@ impl Panel {
         section(ui, "Light", false, folds, layout, |layout| self.rows(ui, Part::Light, layout));
         section(ui, "Sampling", false, folds, layout, |layout| self.rows(ui, Part::Sampling, layout));
         section(ui, "View", false, folds, layout, |layout| self.rows(ui, Part::View, layout));
-        section(ui, "Files", false, folds, layout, |layout| action = self.files(ui, layout).or(action));
+        section(ui, "Files", false, folds, layout, |layout| {
+            action = self.files(ui, &status.progress, layout).or(action)
+        });
         section(ui, "Device", false, folds, layout, |_| sampling::device(ui, status));
         action
     }
@@ -252,15 +283,19 @@ impl Panel {
         let mut chosen = None;
         let shown = self.settings.estimator.scene.source.clone();
         let help = "The scene: a built-in one, or one that you have opened.";
-        combo(ui, "Scene", &shown.to_string_lossy(), help, layout, |layout| {
+        let room = ui.content_region_avail()[0] - 40.0;
+        let preview = from_end(ui, &shown.to_string_lossy(), room);
+        combo(ui, "Scene", &preview, help, layout, |layout| {
             for (number, name) in self.scenes.iter().enumerate() {
                 // imgui needs an id, because two scenes may be shown by the same name.
                 let _id = ui.push_id_usize(number);
-                if ui.selectable_config(name.to_string_lossy()).selected(*name == shown).build() {
+                let label = from_end(ui, &name.to_string_lossy(), LONGEST);
+                if ui.selectable_config(label).selected(*name == shown).build() {
                     chosen = Some(name.clone());
                 }
                 if let Some(builtin) = builtin(name) {
-                    note_item(ui, builtin, layout);
+                    note_item(ui, builtin.name, layout);
+                    ui.text_disabled(format!("    {}", builtin.about));
                 }
             }
         });

@@ -2,7 +2,7 @@
 
 pub(super) use crate::app::panel::Layout;
 
-use imgui::{TreeNodeFlags, Ui};
+use imgui::{StyleColor, TreeNodeFlags, Ui};
 use std::collections::BTreeMap;
 
 /// Draws a control as wide as the panel, with its name above it.
@@ -75,6 +75,23 @@ pub(super) fn section(
         let hidden_below = bottom - (view_top + ui.window_size()[1]);
         ui.set_scroll_y(ui.scroll_y() + hidden_below.min(top - view_top).max(0.0));
     }
+}
+
+/// The largest width of a path in a list, in points.
+pub(super) const LONGEST: f32 = 420.0;
+
+/// A path, or as much of its end as fits in this width: the end says more than the start.
+pub(super) fn from_end(ui: &Ui, path: &str, width: f32) -> String {
+    let fits = |text: &String| ui.calc_text_size(text)[0] <= width;
+    let starts = path.char_indices().map(|(at, _)| at).skip(1);
+    let shortened = starts.map(|at| format!("...{}", &path[at..]));
+    let mut texts = std::iter::once(path.to_owned()).chain(shortened);
+    texts.find(fits).unwrap_or_default()
+}
+
+/// Makes the next button look pressed.
+pub(super) fn pressed(ui: &Ui) -> imgui::ColorStackToken<'_> {
+    ui.push_style_color(StyleColor::Button, ui.style_color(StyleColor::ButtonActive))
 }
 
 /// Draws a drop-down list as wide as the panel.

@@ -3,6 +3,7 @@
 use super::super::area::Area;
 use super::super::graphics::Answer;
 use super::super::loader::{Loader, Ready};
+use super::super::message::{Kind, Offer};
 use super::super::ui::{Action, Status};
 use super::super::{keys, telemetry};
 use super::{FRAMES_AFTER_EVENT, OpenWindow, area};
@@ -81,6 +82,8 @@ impl OpenWindow {
         let preparing = (!self.graphics.has_started()).then(|| "preparing ...".into());
         let status = Status {
             progress: self.graphics.progress(),
+            can_undo: self.history.can_undo(),
+            can_redo: self.history.can_redo(),
             device: self.graphics.device_name(),
             picked: self.focus.under_pointer(),
             diagram: self.focus.diagram(),
@@ -129,7 +132,9 @@ impl OpenWindow {
                 .messages
                 .say("The held picture is gone: it does not fit the picture's new size.".into());
         }
-        if let Some(action) = action {
+        let is_done = self.panel.save_when_done && self.graphics.has_started() && self.graphics.finished();
+        self.panel.save_when_done &= !is_done;
+        for action in action.into_iter().chain(is_done.then_some(Action::SavePicture)) {
             self.act(action)?;
         }
         if let Some(name) = self.panel.to_open.take() {
@@ -260,15 +265,40 @@ impl OpenWindow {
             // `interact` has done it already, because imgui owns the clipboard.
             Action::CopyCommand => {}
             Action::SaveScene => self.panel.save_scene(),
+            Action::SaveWhenDone => self.panel.save_when_done ^= true,
+            Action::Accept(offer) => return self.accept(offer),
             Action::SavePicture => {
-                let file = self.panel.picture_file();
-                match self.graphics.save(self.panel.shown(), &file) {
-                    Ok(()) => self.panel.picture_is_saved(&file),
-                    Err(error) => self.panel.messages.fail(error.to_string()),
+                if let Some(file) = self.panel.file_for(Kind::Picture) {
+                    match self.graphics.save(self.panel.shown(), &file) {
+                        Ok(()) => self.panel.picture_is_saved(&file, self.graphics.progress().samples),
+                        Err(error) => self.panel.messages.fail(error.to_string()),
+                    }
                 }
             }
         }
         Ok(())
+    }
+
+    /// Does what a message offered.
+    fn accept(&mut self, offer: Offer) -> Result<()> {
+        let kind = match offer {
+            Offer::SaveWhenDone => {
+                self.panel.save_when_done = true;
+                return Ok(());
+            }
+            Offer::Replace(kind) => {
+                self.panel.save_as(kind).replaces = true;
+                kind
+            }
+            Offer::KeepBoth(kind) => {
+                self.panel.save_as(kind).offered = true;
+                kind
+            }
+        };
+        self.act(match kind {
+            Kind::Picture => Action::SavePicture,
+            Kind::Scene => Action::SaveScene,
+        })
     }
 
     /// Holds the picture on the left for comparison, or releases it.
