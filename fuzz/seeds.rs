@@ -174,7 +174,7 @@ position = [0, 1, 1000]
 velocity = [1, 0, 0]
 ";
 
-pub const SCENE_WORDS: [&str; 66] = [
+pub const SCENE_WORDS: [&str; 72] = [
     "[sphere]",
     "[[sphere]]",
     "[[box]]",
@@ -198,6 +198,11 @@ pub const SCENE_WORDS: [&str; 66] = [
     "pixel_size",
     "metres_per_unit",
     "model",
+    "sensor",
+    "full-frame",
+    "30x20",
+    "focal_length",
+    "focus_breathing",
     "lens_diameter",
     "f_number",
     "focal_distance",
@@ -215,6 +220,7 @@ pub const SCENE_WORDS: [&str; 66] = [
     "exposure",
     "overlay",
     "tolerance",
+    "0.03 mm",
     "center",
     "radius",
     "material",
@@ -522,7 +528,7 @@ pub fn exr_pictures() -> Vec<Vec<u8>> {
     PICTURED.map(exr::picture).into()
 }
 
-pub const OPTIONS: [&str; 76] = [
+pub const OPTIONS: [&str; 79] = [
     "view",
     "render",
     "sweep",
@@ -572,6 +578,9 @@ pub const OPTIONS: [&str; 76] = [
     "--aperture-image=",
     "--cats-eye=",
     "--focal-distance=",
+    "--focal-length=",
+    "--sensor=",
+    "--focus-breathing",
     "--jitter=",
     "--max-bounces=",
     "--sampler=",

@@ -6,8 +6,8 @@ use common::{Gpu, decode_png, run};
 use std::path::Path;
 use thinlens::output::{self, Origin};
 
-use thinlens::scene::{self, SceneRef, Tolerance};
-use thinlens::settings::{Access, Settings, Value, Widget, list};
+use thinlens::scene::{self, SceneRef, Sensor, Tolerance};
+use thinlens::settings::{Access, Estimator, Settings, Value, Widget, list};
 
 /// Every option that changes a picture, in groups that go together.
 const OPTIONS: [&[&str]; 8] = [
@@ -192,10 +192,17 @@ fn changed(scene: &SceneRef, random: &mut fastrand::Rng) -> Settings {
             Access::Choice(_, choices) => Value::Name(random.choice(choices()).expect("a choice").name),
             Access::Tolerance(_) if random.bool() => Value::Tolerance(Tolerance::Film(random.f32() + 0.001)),
             Access::Tolerance(_) => Value::Tolerance(Tolerance::Pixels(random.f32() + 0.1)),
+            Access::Sensor(_) => {
+                let [width_mm, height_mm] = [(); 2].map(|()| 1.0 + 98.0 * random.f64());
+                Value::Sensor(Sensor { width_mm, height_mm })
+            }
             Access::Image(_) => continue,
         };
         setting.set(&mut settings, &value).expect("no image");
     }
+    // A lens that moves cannot focus as near as this one may be.
+    let Estimator { camera, lens, .. } = &mut settings.estimator;
+    camera.focus_breathing &= camera.can_focus(lens).is_ok();
     settings.check().expect("settings that there can be");
     settings
 }
@@ -254,6 +261,7 @@ fn a_saved_scene_has_the_settings_it_was_saved_with() {
             if keep() {
                 now.model = was.model;
             }
+            now.camera.focus_breathing &= now.camera.can_focus(&now.lens).is_ok();
             if round == 40 {
                 settings = plain.clone();
             }

@@ -8,7 +8,7 @@ use common::probe::probe;
 use common::{Gpu, prove, settings_of};
 use glam::{DVec2, DVec3, Vec3};
 use thinlens::gpu_types::Camera;
-use thinlens::scene::{CameraModel, Hole, Overlay, Preset, SceneRef, Tolerance};
+use thinlens::scene::{CameraModel, FORMATS, Hole, Overlay, PRESETS, Preset, SceneRef, Sensor, Tolerance};
 use thinlens::settings::{Called, Estimator, Settings, Value, list};
 
 #[repr(C)]
@@ -305,14 +305,38 @@ fn lenses_have_the_f_numbers_and_fields_of_view_they_are_named_for() {
         assert!((estimator.f_number() - f_number).abs() < 1e-6, "{name}: f/{}", estimator.f_number());
         assert!((estimator.lens.focal_distance - 5.0).abs() < 1e-9, "{name} moves the focal plane");
     }
-    for (name, diameter) in [("eye-2mm", 0.02), ("eye-8mm", 0.08)] {
-        let estimator = of(name);
-        assert!((f64::from(estimator.lens.diameter) - diameter).abs() < 1e-8, "{name}");
-        assert!((estimator.camera.vfov_radians.to_degrees() - 37.0).abs() < 1e-9, "{name} turns the view");
+    // An eye is about f/2.1 in the dark, and its own view is 2 atan(9 / 17) = 55.80 degrees high, whatever was on before.
+    for (name, diameter, f_number) in [("eye-2mm", 0.02, 8.5), ("eye-8mm", 0.08, 2.125)] {
+        for before in ["50mm-f1.2", "eye-2mm", "pinhole"] {
+            let mut estimator = of(before);
+            estimator.take_preset(Preset::named(name).expect("a preset"));
+            assert!((f64::from(estimator.lens.diameter) - diameter).abs() < 1e-8, "{name}");
+            let vfov = estimator.camera.vfov_radians.to_degrees();
+            assert!((vfov - 55.795).abs() < 1e-3, "{name} after {before}: {vfov} degrees");
+            assert!((estimator.f_number() - f_number).abs() < 1e-6, "{name}: f/{}", estimator.f_number());
+        }
     }
     assert_eq!(of("pinhole").model, CameraModel::Pinhole);
 
-    let mut estimator = of("eye-8mm");
+    // The list shows which one is on, until anything of it changes. A photographer's lens replaces the eye's film.
+    for preset in &PRESETS {
+        let mut estimator = of("eye-8mm");
+        estimator.take_preset(preset);
+        let on = |estimator: &Estimator| {
+            Preset::on(&estimator.camera, estimator.model, &estimator.lens).map(|preset| preset.name)
+        };
+        assert_eq!(on(&estimator), Some(preset.name));
+        if preset.has_f_number() {
+            assert_eq!(estimator.camera.sensor, Sensor::FULL_FRAME, "{}", preset.name);
+        }
+        estimator.model = CameraModel::ThinLens;
+        estimator.lens.diameter *= 1.01;
+        estimator.camera.vfov_radians *= 1.01;
+        assert_eq!(on(&estimator), None, "{}", preset.name);
+    }
+
+    let mut estimator = slanted([64, 48], 37.0, 0.3, 5.0);
+    estimator.camera.metres_per_unit = 0.1;
     estimator.set_f_number(2.0);
     // 12 mm / tan(18.5 degrees) = 35.864 mm, half of which in units of 0.1 m.
     assert!((f64::from(estimator.lens.diameter) - 0.179_32).abs() < 1e-5, "{}", estimator.lens.diameter);
@@ -377,4 +401,107 @@ fn the_depth_of_field_is_that_of_the_film_at_every_size() {
         seen.push(settings.hyperfocal_distance());
     }
     assert!((seen[1] / seen[0] - 1061.0 / 720.0).abs() < 1e-12, "{seen:?}");
+}
+
+/// Catches a format of other sides, a focal length that is measured by the width or by the diagonal, one that does not come
+/// back, and a tolerance that does not shrink with the sensor: the fields of view of a table.
+#[test]
+fn focal_lengths_have_the_fields_of_view_of_each_format() {
+    // The vertical field of view in degrees of lenses of 14, 24, 50, 85 and 200 mm: 2 atan(h / 2f).
+    let focal_lengths = [14.0, 24.0, 50.0, 85.0, 200.0];
+    for (name, vfov, crop) in [
+        ("full-frame", [81.203, 53.130, 26.991, 16.071, 6.867], 1.0),
+        ("aps-c", [58.248, 36.008, 17.733, 10.486, 4.467], 1.5339),
+        ("micro-four-thirds", [49.810, 30.308, 14.814, 8.746, 3.723], 1.9994),
+        ("medium-format", [99.200, 68.855, 36.422, 21.906, 9.404], 0.7898),
+        ("1-inch", [34.894, 20.778, 10.058, 5.927, 2.521], 2.7273),
+        ("phone", [29.225, 17.295, 8.350, 4.918, 2.091], 3.5406),
+        ("eye", [65.470, 41.112, 20.408, 12.088, 5.153], 1.4422),
+        ("10x12", [46.397, 28.072, 13.686, 8.075, 3.437], 2.7699),
+    ] {
+        let mut estimator = slanted([64, 48], 37.0, 0.3, 5.0);
+        estimator.camera.sensor = name.parse().expect("a sensor");
+        for (mm, degrees) in focal_lengths.into_iter().zip(vfov) {
+            let camera = &mut estimator.camera;
+            camera.set_focal_length_mm(mm);
+            assert!(
+                (camera.vfov_degrees() - degrees).abs() < 6e-4,
+                "{name}, {mm} mm: {}",
+                camera.vfov_degrees()
+            );
+            assert!((camera.focal_length_mm() / mm - 1.0).abs() < 1e-12, "{name}, {mm} mm");
+            assert!((camera.focal_length_35mm() / mm / crop - 1.0).abs() < 1e-4, "{name}, {mm} mm");
+            // On full frame 0.03 mm, elsewhere the same share of the diagonal, at every number of rows.
+            let pixels = camera.tolerance_pixels(Tolerance::Film(0.03), 720);
+            let on_film = pixels * camera.sensor.height_mm / 720.0;
+            assert!((on_film * crop / 0.03 - 1.0).abs() < 1e-4, "{name}: {on_film} mm");
+        }
+    }
+    assert_eq!(FORMATS.len(), 7);
+}
+
+/// A 50 mm lens at f/1.8 on full frame, focused at this distance in metres.
+fn fifty(focused: f64, breathes: bool) -> Settings {
+    let toml = format!(
+        "[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, -1]\npreset = \"50mm-f1.8\"\nfocal_distance = {focused}\n\
+         focus_breathing = {breathes}\n"
+    );
+    settings_of(&toml, [1280, 720], 1)
+}
+
+/// Catches a circle of confusion that is not the textbook's where the lens moves to focus, and one that differs from it by
+/// more than is said where the film stays: f^2 |z - F| / (N z (F - f)), and the share f / F less.
+#[test]
+fn the_circle_of_confusion_of_a_breathing_lens_is_the_textbooks() {
+    let (f, n) = (0.05, 1.8);
+    println!("F in m, z in m: the textbook's circle of confusion in mm; with breathing; without");
+    for focused in [0.5_f64, 1.0, 2.0, 10.0] {
+        for depth in [0.6 * focused, 1.5 * focused, 4.0 * focused, 1e3] {
+            let textbook = 1e3 * f * f * (depth - focused).abs() / (n * depth * (focused - f));
+            let [with, without] = [true, false].map(|breathes| {
+                let settings = fifty(focused, breathes);
+                let Estimator { camera, lens, size, .. } = &settings.estimator;
+                settings.mm_of_pixels(camera.circle_of_confusion(lens, depth, size[1]).abs())
+            });
+            println!("{focused:4}, {depth:6.1}: {textbook:.4} {with:.4} {without:.4}");
+            assert!(
+                (with / textbook - 1.0).abs() < 1e-3,
+                "{focused} m, {depth} m: {with} mm, not {textbook}"
+            );
+            let less = 1.0 - without / textbook;
+            assert!(
+                (less - f / focused).abs() < 1e-6,
+                "{focused} m, {depth} m: {less} less than {textbook} mm"
+            );
+        }
+        // The textbook's depth of field and hyperfocal distance.
+        let settings = fifty(focused, true);
+        let tolerance = f64::from(0.03_f32) / 1e3;
+        let hyperfocal = f * f / (n * tolerance) + f;
+        assert!((settings.hyperfocal_distance() / hyperfocal - 1.0).abs() < 1e-6, "{hyperfocal} m");
+        let near = focused * (hyperfocal - f) / (hyperfocal + focused - 2.0 * f);
+        assert!((settings.depth_of_field()[0] / near - 1.0).abs() < 1e-6, "{focused} m: from {near} m");
+    }
+}
+
+/// Catches a film that does not move with the focus on the device or in the oracle, or moves the wrong way: at half a metre a
+/// 50 mm lens has the view of a 55.6 mm lens.
+#[test]
+fn a_breathing_lens_narrows_the_view_on_the_device() {
+    let check = |gpu: &Gpu| -> Result<String> {
+        let mut worst = 0.0_f64;
+        for focused in [0.5, 1.0, 10.0] {
+            let estimator = fifty(focused, true).estimator;
+            // The middle of the picture's upper edge.
+            let place = Place { pixel: [639, 0], offset: [0.5, -0.5], disk: [0.0; 2] };
+            let (_, direction) = primary_rays(gpu, &estimator, &[place])[0];
+            // 1 / v = 1 / f - 1 / F, in millimetres.
+            let film_distance = 1.0 / (1.0 / 50.0 - 1e-3 / focused);
+            let off = direction.y / -direction.z * film_distance / 12.0 - 1.0;
+            worst = worst.max(off.abs());
+            ensure!(off.abs() < 1e-5, "{focused} m: the edge is seen {off} too far from the middle");
+        }
+        Ok(format!("the edges of the view within {worst:.1e}"))
+    };
+    prove(check, &["field_of_view_by_the_width", "half_a_pixel_off", "picture_upside_down"]);
 }

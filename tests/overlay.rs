@@ -59,7 +59,7 @@ fn expected(
 ) -> [f64; 3] {
     let estimator = &settings.estimator;
     let focal_distance = f64::from(estimator.lens.focal_distance);
-    let k = estimator.camera.view_distance_pixels(estimator.size[1]);
+    let k = estimator.focused_camera().view_distance_pixels(estimator.size[1]);
     let picture = [0, 1, 2].map(|channel| f64::from(settings.exposure()) * f64::from(texel[channel]));
     let blur = match estimator.model {
         CameraModel::ThinLens if depth.is_infinite() => {
@@ -120,7 +120,10 @@ fn overlays_show_what_each_pixel_sees() {
     turned.estimator.camera.look_at.x += 2.0;
     let mut smooth = Settings::of_scene(everything_smooth());
     (smooth.estimator.size, smooth.samples) = ([64, 48], 4);
-    let mut settings = vec![small("version-4"), nearer, turned, hole, smooth, pinhole];
+    // The near focus of a lens that moves narrows the view.
+    let mut breathing = nearer.clone();
+    breathing.estimator.camera.focus_breathing = true;
+    let mut settings = vec![small("version-4"), nearer, breathing, turned, hole, smooth, pinhole];
     settings.iter_mut().for_each(|settings| settings.view.tolerance = Tolerance::Pixels(1.5));
     let check = |gpu: &Gpu| -> Result<String> {
         let mut renderer = gpu.renderer(&settings[0]);

@@ -106,6 +106,18 @@ fn a_file_says_how_the_picture_is_shown_and_with_which_lens() {
     let scene = with("preset = \"50mm-f1.4\"\nf_number = 4\nvfov_degrees = 40\n");
     assert!((scene.camera.vfov_degrees() - 40.0).abs() < 1e-9);
     assert!((scene.camera.f_number(scene.lens.diameter) - 4.0).abs() < 1e-6);
+    // A lens keeps its focal length and its f-number on another sensor, which sees less through it.
+    let aps_c = "sensor = \"aps-c\"\nfocus_breathing = true\n";
+    for lens in ["preset = \"50mm-f1.4\"\n", "focal_length = 50\nf_number = 1.4\n"] {
+        let camera = with(&format!("{aps_c}{lens}")).camera;
+        assert_eq!((camera.sensor.width_mm, camera.focus_breathing), (23.5, true));
+        assert!((camera.focal_length_mm() - 50.0).abs() < 1e-9, "{lens}: {}", camera.focal_length_mm());
+        assert!((camera.vfov_degrees() - 17.733).abs() < 1e-3, "{lens}: {}", camera.vfov_degrees());
+    }
+    assert_eq!(
+        with("sensor = \"30x20.5\"\nvfov_degrees = 40\nlens_diameter = 1\n").camera.sensor.height_mm,
+        20.5
+    );
     let scene = with("preset = \"pinhole\"\nvfov_degrees = 40\n");
     assert_eq!((scene.model, scene.lens.diameter), (CameraModel::Pinhole, 0.0));
     let scene = with("preset = \"pinhole\"\nvfov_degrees = 40\nmodel = \"thin-lens\"\nlens_diameter = 3\n");
@@ -132,9 +144,9 @@ fn an_error_names_its_line_and_what_would_be_right() {
         ("\"rde\"", with("\"red\"", "\"rde\""), "blue, red"),
         ("[[0, 0, -9]", with("[1, 0, -9]", "[0, 0, -9]"), "one line"),
         ("[1, 0]", with("[1, 0, 0]", "[1, 0]"), "[r, g, b]"),
-        ("[camera]", with("vfov_degrees = 60\n", ""), "vfov_degrees, or view_distance"),
+        ("[camera]", with("vfov_degrees = 60\n", ""), "vfov_degrees, or focal_length"),
         ("\"50mm\"", with("vfov_degrees = 60", "preset = \"50mm\""), "50mm-f1.8, 50mm-f1.4"),
-        ("[camera]", with("vfov_degrees = 60", "preset = \"eye-2mm\""), "has a field of view"),
+        ("[camera]", with("vfov_degrees = 60", "preset = \"pinhole\""), "has a field of view"),
         (
             "\"lens\"",
             with("vfov_degrees = 60", "vfov_degrees = 60\nmodel = \"lens\""),
@@ -145,6 +157,17 @@ fn an_error_names_its_line_and_what_would_be_right() {
             with("vfov_degrees = 60", "vfov_degrees = 60\nmetres_per_unit = 0"),
             "from 1e-15",
         ),
+        (
+            "\"super-8\"",
+            with("vfov_degrees = 60", "vfov_degrees = 60\nsensor = \"super-8\""),
+            "full-frame, aps-c",
+        ),
+        (
+            "= 5\n",
+            with("vfov_degrees = 60", "focal_length = 5000\nfocus_breathing = true"),
+            "focal_distance is 5, but with focus breathing a lens of 5000",
+        ),
+        ("[camera]", with("vfov_degrees = 60", "vfov_degrees = 60\nfocal_length = 50"), "vfov_degrees, or"),
         ("[camera]", with("lens_diameter = 0.1\n", ""), "lens_diameter, f_number or a preset"),
         ("\"blur\"", with("[camera]", "[view]\noverlay = \"blur\"\n[camera]"), "circle-of-confusion, depth"),
         ("exposures", with("[camera]", "[view]\nexposures = 1\n[camera]"), "exposure"),

@@ -6,7 +6,9 @@ use common::run;
 use std::path::Path;
 use thinlens::error::Error;
 use thinlens::output;
-use thinlens::scene::{self, SceneRef, TOLERANCES_MM, TOLERANCES_PIXELS, Tolerance};
+use thinlens::scene::{
+    self, FORMATS, SENSOR_SIDES_MM, SceneRef, Sensor, TOLERANCES_MM, TOLERANCES_PIXELS, Tolerance,
+};
 use thinlens::settings::{Access, Called, Changes, Role, Setting, Settings, Value, Widget, list};
 
 fn plain() -> Settings {
@@ -49,6 +51,7 @@ fn another(setting: &Setting, now: &Value, folder: &Path) -> Value {
             names.sort_by_key(|name| name.starts_with("50mm"));
             Value::Name(names.into_iter().rev().find(|name| name != now).expect("another name"))
         }
+        (Access::Sensor(_), Value::Sensor(_)) => Value::Sensor(Sensor { width_mm: 23.6, height_mm: 15.75 }),
         (Access::Tolerance(_), Value::Tolerance(_)) => Value::Tolerance(Tolerance::Pixels(2.5)),
         (Access::Image(_), Value::File(None)) => Value::File(Some(image(folder))),
         (_, now) => panic!("--{} is {now:?}", setting.flag),
@@ -72,6 +75,7 @@ fn out_of_range(setting: &Setting) -> Vec<String> {
             vec![format!("0,{},1", low * 2.0), format!("1,0,{}", high * 2.0), "NaN,0,0".into()]
         }
         Access::Size(_, [low, high]) => vec![format!("{}x9", low - 1), format!("9x{}", high + 1)],
+        Access::Sensor(_) => ["0x24", "36x2000", "-3x24", "NaNx24"].map(String::from).to_vec(),
         Access::Tolerance(_) => ["0.05", "2000px", "NaN", "20mm", "0mm", "-1mm"].map(String::from).to_vec(),
         Access::Switch(_) | Access::Choice(..) | Access::Image(_) => Vec::new(),
     }
@@ -146,6 +150,7 @@ fn scene_with(settings: &Settings, instead_of: &str, line: &str) -> String {
             Value::Name("none") | Value::File(_) => continue,
             Value::Name(name) => format!("{name:?}"),
             Value::Tolerance(tolerance) => format!("\"{tolerance}\""),
+            Value::Sensor(sensor) => format!("\"{sensor}\""),
         };
         let line = if key.name == instead_of { line.into() } else { format!("{} = {value}", key.name) };
         let table = tables.iter_mut().find(|(name, _)| *name == key.table).expect("a table");
@@ -167,11 +172,16 @@ fn a_value_out_of_range_in_a_scene_file_is_refused_by_its_key() {
     let mut refused = 0;
     for setting in list::all() {
         let Some(key) = &setting.key else { continue };
-        let instead_of = if setting.flag == "f-number" { "lens_diameter" } else { key.name };
+        let instead_of = match setting.flag {
+            "f-number" => "lens_diameter",
+            "focal-length" => "vfov_degrees",
+            _ => key.name,
+        };
         for word in out_of_range(setting) {
             let value = match setting.access {
                 Access::Size(..) => format!("[{}]", word.replace('x', ", ")),
                 Access::Vector(..) => format!("[{}]", word.to_lowercase()),
+                Access::Sensor(_) => format!("{word:?}"),
                 Access::Tolerance(_) if word.ends_with('m') || word.ends_with('x') => format!("{word:?}"),
                 _ => word.to_lowercase(),
             };
@@ -299,6 +309,7 @@ fn each_row_fits_its_setting() {
             Access::Switch(_) => matches!(row.widget, Widget::Box),
             Access::Choice(..) => matches!(row.widget, Widget::List),
             Access::Tolerance(_) => matches!(row.widget, Widget::Length),
+            Access::Sensor(_) => matches!(row.widget, Widget::List),
             Access::Size(..) | Access::Image(_) => false,
         };
         assert!(fits, "{}", row.label);
@@ -329,6 +340,10 @@ fn tables() -> String {
                 Access::Double(_, range) | Access::Vector(_, range) => (String::new(), span(*range)),
                 Access::Whole(_, range) | Access::Size(_, range) => (String::new(), span(*range)),
                 Access::WholeOrZero(_, range, _) => (String::new(), format!("0, {}", span(*range))),
+                Access::Sensor(_) => (
+                    FORMATS.map(|format| format!("`{}`", format.name)).join(", "),
+                    format!(", or each side {} mm", span(SENSOR_SIDES_MM)),
+                ),
                 Access::Tolerance(_) => {
                     (String::new(), format!("{} mm, {} px", span(TOLERANCES_MM), span(TOLERANCES_PIXELS)))
                 }

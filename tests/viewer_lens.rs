@@ -124,14 +124,81 @@ fn the_lens_is_chosen_by_name_and_by_f_number() {
     let diameter = Some(with_preset.lens.diameter);
     choose_lens("Known lenses", "50 mm f/1.4", "ThinLens 26.991 0 0", diameter);
     viewer.expect_picture("a 50 mm lens", 0, &["-n", "2", "--preset", "50mm-f1.4"]);
+    // The window is too low for both parts. A part that is folded moves the next one up.
+    let top = |viewer: &Viewer| viewer.controls.borrow()["Aperture shape"][1];
+    let below = top(&viewer);
+    viewer.click("Lens", |viewer| top(viewer) < below);
     viewer.click("Aperture shape", |viewer| viewer.controls.borrow().contains_key("Aperture"));
     choose("Aperture", "Iris of blades", "ThinLens 26.991 6 0");
     viewer.expect_picture("an iris", 0, &["-n", "2", "--preset", "50mm-f1.4", "--blades", "6"]);
     choose("Aperture", "Cat's eye", "ThinLens 26.991 0 0.5");
     viewer.expect_picture("a cat's eye", 0, &["-n", "2", "--preset", "50mm-f1.4", "--cats-eye", "0.5"]);
     choose("Aperture", "Round opening", "ThinLens 26.991 0 0");
+    let above = top(&viewer);
+    viewer.click("Lens", |viewer| top(viewer) > above);
     choose("Camera", "Hole, no lens", "Hole 26.991 0 0");
     viewer.expect_picture("a hole", 0, &["-n", "2", "--preset", "50mm-f1.4", "--camera", "hole"]);
+    viewer.close();
+}
+
+/// Catches a zoom or a sensor that does not keep what was set last, a third of a stop that skips one, a hyperfocal distance
+/// from which the horizon is blurred, and an eye that keeps the view that was on before.
+#[test]
+fn the_lens_is_set_as_photographers_set_it() {
+    let viewer = Viewer::start(SIZE, &["-n", "2"]);
+    viewer.wait_until_done();
+    let vfov = |viewer: &Viewer| {
+        let view = viewer.view.borrow();
+        view.split(' ').nth(1).and_then(|degrees| degrees.parse::<f64>().ok()).expect("a field of view")
+    };
+    // The f-number of what the viewer shows, with a film of this height; its log has the view in three decimals.
+    let f_number = |viewer: &Viewer, film_mm: f64| {
+        let film_distance = film_mm / 2.0 / (vfov(viewer).to_radians() / 2.0).tan() / 50.0;
+        film_distance / f64::from(viewer.state.borrow()[0])
+    };
+    let is = |viewer: &Viewer, film_mm: f64, stop: f64| (f_number(viewer, film_mm) / stop - 1.0).abs() < 1e-3;
+    let choose = |combo: &str, choice: &str, reached: &dyn Fn(&Viewer) -> bool| {
+        viewer.until(choice, reached, || {
+            viewer.controls.borrow_mut().remove(choice);
+            viewer.click(combo, |viewer| viewer.controls.borrow().contains_key(choice));
+            viewer.click_once(choice);
+        });
+    };
+    viewer.click("Lens", |viewer| viewer.controls.borrow().contains_key("Hyperfocal"));
+    viewer.click("f/8", |viewer| is(viewer, 24.0, 8.0));
+    viewer.click("1/3 stop narrower", |viewer| is(viewer, 24.0, 9.0));
+    viewer.click("1/3 stop wider", |viewer| is(viewer, 24.0, 8.0));
+
+    // The f-number was set last, so a click into the slider zooms and keeps it.
+    viewer.click("Focal length", |viewer| (vfov(viewer) - 37.0).abs() > 1.0);
+    viewer.rest();
+    assert!(is(&viewer, 24.0, 8.0), "zooming gives f/{}", f_number(&viewer, 24.0));
+    let view = vfov(&viewer);
+    choose("Sensor", "APS-C", &|viewer| is(viewer, 15.6, 8.0));
+    assert!((vfov(&viewer) - view).abs() < 1e-9, "another sensor turns the view");
+
+    // Without the lock the diameter stays.
+    let diameter = viewer.state.borrow()[0];
+    viewer.click("Keep the f-number", |_| true);
+    viewer.rest();
+    choose("Sensor", "Phone", &|viewer| viewer.controls.borrow().contains_key("Hyperfocal"));
+    viewer.rest();
+    assert_eq!(viewer.state.borrow()[0], diameter, "the diameter changes");
+
+    // D v / c with c of a 9.8 x 7.3 mm sensor: 0.03 mm by the ratio of the diagonals.
+    let tolerance = 0.03 * 9.8_f64.hypot(7.3) / 36.0_f64.hypot(24.0);
+    let film_distance = 7.3 / 2.0 / (vfov(&viewer).to_radians() / 2.0).tan();
+    let hyperfocal = f64::from(diameter) * film_distance / tolerance;
+    viewer
+        .click("Hyperfocal", |viewer| (f64::from(viewer.state.borrow()[1]) / hyperfocal - 1.0).abs() < 1e-3);
+
+    choose("Known lenses", "Eye, 8 mm pupil", &|viewer| *viewer.view.borrow() == "ThinLens 55.795 0 0");
+    choose("Known lenses", "50 mm f/1.8", &|viewer| *viewer.view.borrow() == "ThinLens 26.991 0 0");
+    viewer.expect_picture(
+        "a 50 mm lens after an eye",
+        0,
+        &["-n", "2", "--preset", "50mm-f1.8", "--focal-distance", &viewer.state.borrow()[1].to_string()],
+    );
     viewer.close();
 }
 

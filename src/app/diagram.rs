@@ -71,7 +71,7 @@ pub struct ImageSide {
 impl Diagram {
     /// Makes the diagram of what the device traced with this camera.
     pub fn new(estimator: &Estimator, picked: &Picked) -> Self {
-        let camera = &estimator.camera;
+        let camera = &estimator.focused_camera();
         // The centre of the lens as the device computes it.
         let (frame, eye) = (camera.frame(), picked.rays[0].origin);
         let turned =

@@ -17,6 +17,7 @@ mod save_as;
 pub mod telemetry;
 mod ui;
 mod window;
+mod zoom_lock;
 
 pub use memory::Memory;
 

@@ -5,6 +5,7 @@ use super::area::Placed;
 use super::memory::Memory;
 use super::message::{Kind, Messages, Offer};
 use super::save_as::{self, Files, SaveAs, absolute};
+use super::zoom_lock::ZoomLock;
 use crate::error::{Error, Result};
 use crate::output::{self, Origin, PictureFormat};
 use crate::scene::{self, ApertureImage, BUILTINS, Builtin, SceneRef};
@@ -40,6 +41,7 @@ pub(super) struct Panel {
     pub(super) to_open: Option<PathBuf>,
     pub(super) messages: Messages,
     pub(super) optics: Optics,
+    pub(super) zoom_lock: ZoomLock,
     /// The picture that is held for comparison, if there is one.
     pub(super) held: Option<Held>,
     pub(super) paused: bool,
@@ -104,6 +106,7 @@ impl Panel {
         let mut panel = Self {
             initial: options.initial.clone(),
             accepted: State { settings: settings.clone(), initial: options.initial.clone() },
+            zoom_lock: ZoomLock::new(&settings.estimator),
             image: settings.estimator.aperture.image.clone(),
             settings,
             scenes: BUILTINS.iter().map(|builtin| builtin.name.into()).chain(opened).collect(),
@@ -312,7 +315,7 @@ impl Panel {
 pub(super) enum Content {
     Scene(SceneRef),
     /// The settings of a picture.
-    Picture(Settings),
+    Picture(Box<Settings>),
 }
 
 impl Content {
@@ -321,7 +324,7 @@ impl Content {
         match PictureFormat::of(name) {
             Some(_) => Origin::read(name)
                 .and_then(|origin| Settings::of_arguments(&origin.arguments))
-                .map(Self::Picture),
+                .map(|settings| Self::Picture(Box::new(settings))),
             None => scene::load(name).map(|scene| Self::Scene(SceneRef::new(scene))),
         }
     }
@@ -331,7 +334,7 @@ impl Content {
         match self {
             Self::Scene(scene) => now.with_scene(scene.clone()),
             Self::Picture(settings) => {
-                let mut settings = settings.clone();
+                let mut settings = Settings::clone(settings);
                 settings.estimator.size = now.estimator.size;
                 settings
             }

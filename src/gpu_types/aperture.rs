@@ -56,8 +56,8 @@ impl ApertureBuffer {
             ApertureKind::Blades(blades) => add_blades(&mut shape, &mut edges, blades),
             ApertureKind::CatsEye(CatsEye { in_corner }) => {
                 let [width, height] = estimator.size.map(f64::from);
-                let corner =
-                    0.5 * width.hypot(height) / estimator.camera.view_distance_pixels(estimator.size[1]);
+                let corner = 0.5 * width.hypot(height)
+                    / estimator.focused_camera().view_distance_pixels(estimator.size[1]);
                 shape.cats_eye_shift = (2.0 * f64::from(in_corner) / corner) as f32;
                 shape.max_cats_eye_shift = 2.0 * in_corner;
             }

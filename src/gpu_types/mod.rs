@@ -221,7 +221,7 @@ impl Counters {
 impl Camera {
     /// The camera in the form that the shaders read. All values are computed in f64 and rounded once.
     pub fn new(estimator: &Estimator) -> Self {
-        let camera = &estimator.camera;
+        let camera = &estimator.focused_camera();
         let frame = camera.frame();
         let view_distance = camera.view_distance_pixels(estimator.size[1]);
         // A film point s at the distance v behind a hole sees through the point l of the hole along l - s. On the view

@@ -36,6 +36,15 @@ enum Optics {
 impl Projection {
     pub(super) fn new(estimator: &Estimator) -> Self {
         let camera = &estimator.camera;
+        // On film at the distance v a lens of the focal length f is in focus at F if 1 / f = 1 / v + 1 / F.
+        let half_film = camera.sensor.height_mm / 2000.0 / camera.metres_per_unit;
+        let focal_length = half_film / (camera.vfov_radians / 2.0).tan();
+        let breathes = camera.focus_breathing && estimator.model == CameraModel::ThinLens;
+        let film_distance = if breathes {
+            1.0 / (1.0 / focal_length - 1.0 / f64::from(estimator.lens.focal_distance))
+        } else {
+            focal_length
+        };
         let w = (camera.eye - camera.look_at).normalize();
         let u = camera.up.cross(w).normalize();
         Self {
@@ -44,7 +53,7 @@ impl Projection {
             v: w.cross(u),
             w,
             size: estimator.size.map(f64::from),
-            half_height: (camera.vfov_radians / 2.0).tan(),
+            half_height: half_film / film_distance,
             optics: match estimator.model {
                 CameraModel::ThinLens => Optics::Lens {
                     radius: f64::from(estimator.lens.diameter) / 2.0,
@@ -53,7 +62,7 @@ impl Projection {
                 CameraModel::Pinhole => Optics::Lens { radius: 0.0, focal_distance: 1.0 },
                 CameraModel::Hole => Optics::Hole {
                     radius: f64::from(estimator.hole.diameter) / 2.0,
-                    film_distance: 0.012 / (camera.vfov_radians / 2.0).tan() / camera.metres_per_unit,
+                    film_distance,
                     upright: estimator.hole.upright,
                 },
             },

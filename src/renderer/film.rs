@@ -75,7 +75,8 @@ pub(super) struct SurfaceImage {
     has_layout: bool,
 }
 
-/// What a surface image depends on besides its size. It does not depend on the lens.
+/// What a surface image depends on besides its size. It depends on the lens only by the field of
+/// view.
 #[derive(Clone, PartialEq)]
 pub(super) struct Seen {
     scene: SceneRef,
@@ -87,7 +88,7 @@ impl Seen {
     pub(super) fn new(estimator: &Estimator) -> Self {
         Self {
             scene: estimator.scene.clone(),
-            camera: estimator.camera,
+            camera: estimator.focused_camera(),
             upside_down: estimator.model == CameraModel::Hole && !estimator.hole.upright,
         }
     }

@@ -1,5 +1,6 @@
 //! The camera, its thin lens, and its hole.
 
+use super::Sensor;
 use glam::{DMat3, DVec3};
 use std::fmt::Display;
 
@@ -16,6 +17,11 @@ pub struct Camera {
     pub vfov_radians: f64,
     /// The length in metres of one scene unit.
     pub metres_per_unit: f64,
+    /// The size of the film.
+    pub sensor: Sensor,
+    /// Whether the lens moves to focus, which narrows the field of view. Then the field of view above is that of focus at
+    /// infinity. Otherwise the film stays where it is.
+    pub focus_breathing: bool,
 }
 
 /// The model of the camera.

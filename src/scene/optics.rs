@@ -1,32 +1,64 @@
 //! A lens in a photographer's units, and the size of its blur.
 //!
-//! The frame is 24 mm high and at the distance `v = 12 mm / tan(vfov / 2)` behind the lens. It stays there whatever is
-//! in focus. [`Camera::metres_per_unit`] relates millimetres to the lengths of the scene. Circles of confusion follow
-//! from similar triangles: K. Suffern, *Ray Tracing from the Ground Up*, section 10.1.
+//! The film is as high as [`Camera::sensor`] says, `h`, and stands at the distance `v = h / 2 / tan(vfov / 2)` behind the
+//! lens. It stays there whatever is in focus, unless [`Camera::focus_breathing`] moves it: [`Camera::focused`].
+//! [`Camera::metres_per_unit`] relates millimetres to the lengths of the scene. Circles of confusion follow from similar
+//! triangles: K. Suffern, *Ray Tracing from the Ground Up*, section 10.1.
 
 use super::{Camera, Lens, Tolerance};
 
-/// Half the height of the frame in millimetres. A frame of 35 mm film is 36 mm wide and 24 mm high.
-const HALF_FRAME_MM: f64 = 12.0;
-/// The height of the frame in millimetres.
-pub const FRAME_HEIGHT_MM: f64 = 2.0 * HALF_FRAME_MM;
-
-/// The vertical field of view, in radians, of a lens of this focal length that is focused at infinity.
-pub fn vfov_of_focal_length(millimetres: f64) -> f64 {
-    // Converted to degrees and back, so that `vfov_degrees` finds degrees that give exactly these radians.
-    (2.0 * (HALF_FRAME_MM / millimetres).atan()).to_degrees().to_radians()
-}
+/// A lens that moves to focus cannot focus nearer than this many focal lengths. There a thing is 100 times as large on
+/// the film as it is.
+const NEAREST_FOCAL_LENGTHS: f64 = 1.01;
 
 impl Camera {
-    /// The distance of the film behind the lens, in millimetres. It is the focal length that gives this field of view
-    /// on a frame that is 24 mm high.
+    /// The focal length of a lens with this field of view when it is focused at infinity: the distance of the film
+    /// behind the lens, in millimetres.
     pub fn focal_length_mm(&self) -> f64 {
-        HALF_FRAME_MM / (0.5 * self.vfov_radians).tan()
+        0.5 * self.sensor.height_mm / (0.5 * self.vfov_radians).tan()
+    }
+
+    /// Gives the camera the field of view of this focal length.
+    pub fn set_focal_length_mm(&mut self, millimetres: f64) {
+        self.vfov_radians = self.sensor.vfov_of_focal_length(millimetres);
+    }
+
+    /// The focal length that gives the same view on full frame, by the diagonals of the two formats.
+    pub fn focal_length_35mm(&self) -> f64 {
+        self.focal_length_mm() * self.sensor.crop_factor()
     }
 
     /// The distance of the film behind the lens, in scene units.
     pub fn film_distance(&self) -> f64 {
         self.units_of_mm(self.focal_length_mm())
+    }
+
+    /// The camera when this lens is in focus. With focus breathing, a lens of the focal length `f` stands
+    /// `v = f F / (F - f)` before the film, which narrows the field of view. Otherwise nothing changes.
+    #[must_use]
+    pub fn focused(&self, lens: &Lens) -> Self {
+        if !self.focus_breathing {
+            return *self;
+        }
+        let (focal_length, focused) = (self.film_distance(), f64::from(lens.focal_distance));
+        let narrowed = (0.5 * self.vfov_radians).tan() * (focused - focal_length) / focused;
+        Self { vfov_radians: 2.0 * narrowed.atan(), focus_breathing: false, ..*self }
+    }
+
+    /// Checks that the lens can be focused so near.
+    ///
+    /// # Errors
+    /// What is wrong, as the end of a sentence that begins with what the user calls the focal distance.
+    pub fn can_focus(&self, lens: &Lens) -> Result<(), String> {
+        let nearest = NEAREST_FOCAL_LENGTHS * self.film_distance();
+        if !self.focus_breathing || f64::from(lens.focal_distance) >= nearest {
+            return Ok(());
+        }
+        Err(format!(
+            "is {}, but with focus breathing a lens of {:.4} mm must be focused at {nearest:.4} scene units or more",
+            lens.focal_distance,
+            self.focal_length_mm(),
+        ))
     }
 
     /// A length in scene units that is this long in millimetres.
@@ -39,12 +71,26 @@ impl Camera {
         1000.0 * self.metres_per_unit
     }
 
+    /// A tolerance as a length on this film. The length that is given for full frame is divided by the crop factor,
+    /// because the picture of a smaller film is enlarged more to be looked at.
+    pub fn tolerance_mm(&self, tolerance: Tolerance, height: u32) -> f64 {
+        match tolerance {
+            Tolerance::Film(mm) => f64::from(mm) / self.sensor.crop_factor(),
+            Tolerance::Pixels(pixels) => f64::from(pixels) * self.mm_per_pixel(height),
+        }
+    }
+
     /// A tolerance in pixels of a picture of this height.
     pub fn tolerance_pixels(&self, tolerance: Tolerance, height: u32) -> f64 {
         match tolerance {
-            Tolerance::Film(mm) => f64::from(mm) / FRAME_HEIGHT_MM * f64::from(height),
+            Tolerance::Film(_) => self.tolerance_mm(tolerance, height) / self.mm_per_pixel(height),
             Tolerance::Pixels(pixels) => pixels.into(),
         }
+    }
+
+    /// The length in millimetres on the film of a pixel of a picture of this height.
+    pub fn mm_per_pixel(&self, height: u32) -> f64 {
+        self.sensor.height_mm / f64::from(height)
     }
 
     /// The f-number of a lens with this diameter in scene units. Infinite for a pinhole.
@@ -57,7 +103,7 @@ impl Camera {
         self.film_distance() / f_number
     }
 
-    /// The diameter of a hole that blurs a far point to about 1/80 of the height of the picture.
+    /// The diameter of a hole that blurs a far point to about 1/80 of the height of a picture on full frame.
     pub fn default_hole_diameter(&self) -> f32 {
         self.units_of_mm(0.3) as f32
     }
@@ -67,14 +113,15 @@ impl Camera {
     pub fn circle_of_confusion(&self, lens: &Lens, depth: f64, height: u32) -> f64 {
         let focal_distance = f64::from(lens.focal_distance);
         f64::from(lens.diameter) * (depth - focal_distance) / (depth * focal_distance)
-            * self.view_distance_pixels(height)
+            * self.focused(lens).view_distance_pixels(height)
     }
 
     /// The depth of field: the axial depths between which circles of confusion are at most `tolerance` pixels wide. The
     /// far limit is infinite if the lens is focused at the hyperfocal distance or beyond.
     pub fn depth_of_field(&self, lens: &Lens, tolerance: f64, height: u32) -> [f64; 2] {
         let focused = f64::from(lens.focal_distance).recip();
-        let margin = self.hyperfocal_distance(lens, tolerance, height).recip();
+        let view_distance = self.focused(lens).view_distance_pixels(height);
+        let margin = (f64::from(lens.diameter) * view_distance / tolerance).recip();
         let far = (focused - margin).recip();
         [(focused + margin).recip(), if far > 0.0 { far } else { f64::INFINITY }]
     }
@@ -82,6 +129,8 @@ impl Camera {
     /// The hyperfocal distance. A lens that is focused there or beyond blurs nothing behind its focal plane by more than
     /// `tolerance` pixels.
     pub fn hyperfocal_distance(&self, lens: &Lens, tolerance: f64, height: u32) -> f64 {
-        f64::from(lens.diameter) * self.view_distance_pixels(height) / tolerance
+        let without_breathing = f64::from(lens.diameter) * self.view_distance_pixels(height) / tolerance;
+        // With breathing, D v / c = F, where v = f F / (F - f): so F = D f / c + f.
+        without_breathing + if self.focus_breathing { self.film_distance() } else { 0.0 }
     }
 }

@@ -1,6 +1,9 @@
 //! Presets: well-known lenses.
 
-use super::{Camera, CameraModel, Lens, vfov_of_focal_length};
+use super::{Camera, CameraModel, Lens, Sensor};
+
+/// The focal length of an eye in air: its film, the retina, is 17 mm behind a lens that would do the same in air.
+const EYE_MM: f64 = 17.0;
 
 /// A well-known lens.
 #[derive(Debug, Clone, Copy)]
@@ -17,14 +20,14 @@ pub struct Preset {
 #[derive(Debug, Clone, Copy)]
 enum Effect {
     Pinhole,
-    /// A lens of this focal length and f-number, focused at infinity, with a frame that is 24 mm high.
+    /// A lens of this focal length and f-number. The sensor stays, but for the eye's, which becomes full frame.
     Photographic {
         focal_length_mm: f64,
         f_number: f64,
     },
-    /// The pupil of an eye. The field of view stays as it is, because that of an eye depends on what it looks at.
-    Pupil {
-        diameter_mm: f64,
+    /// An eye with a pupil of this diameter, and its own film and field of view.
+    Eye {
+        pupil_mm: f64,
     },
 }
 
@@ -39,7 +42,7 @@ pub const PRESETS: [Preset; 6] = [
     fifty(
         "50mm-f1.8",
         "50 mm f/1.8",
-        "The normal lens that many photographers start with. Focused at close range, it has a wider field of view than a real one: that of 45.5 mm at half a metre.",
+        "The normal lens that many photographers start with. Focused at close range, it has a wider field of view than a real one: that of 45.5 mm at half a metre. Focus breathing makes it that of a real one.",
         1.8,
     ),
     fifty("50mm-f1.4", "50 mm f/1.4", "A wider lens: it lets in 1.7 times the light, and blurs more.", 1.4),
@@ -52,14 +55,14 @@ pub const PRESETS: [Preset; 6] = [
     Preset {
         name: "eye-2mm",
         label: "Eye, 2 mm pupil",
-        help: "The pupil of an eye in bright light.",
-        effect: Effect::Pupil { diameter_mm: 2.0 },
+        help: "An eye in bright light: f/8.5, with a film 17 mm behind the lens.",
+        effect: Effect::Eye { pupil_mm: 2.0 },
     },
     Preset {
         name: "eye-8mm",
         label: "Eye, 8 mm pupil",
-        help: "The pupil of a young eye in the dark: its depth of field is smaller.",
-        effect: Effect::Pupil { diameter_mm: 8.0 },
+        help: "A young eye in the dark: f/2.1. Its depth of field is smaller.",
+        effect: Effect::Eye { pupil_mm: 8.0 },
     },
 ];
 
@@ -73,16 +76,38 @@ impl Preset {
         PRESETS.iter().find(|preset| preset.name == name)
     }
 
+    /// The preset that is on the camera, if one is.
+    pub fn on(camera: &Camera, model: CameraModel, lens: &Lens) -> Option<&'static Self> {
+        static KNOWN: &[Preset] = &PRESETS;
+        KNOWN.iter().find(|preset| {
+            let (mut same_camera, mut same_model, mut same_lens) = (*camera, model, *lens);
+            preset.apply(&mut same_camera, &mut same_model, &mut same_lens);
+            (same_camera, same_model, same_lens) == (*camera, model, *lens)
+        })
+    }
+
+    /// Whether photographers know the lens by its f-number.
+    pub fn has_f_number(&self) -> bool {
+        matches!(self.effect, Effect::Photographic { .. })
+    }
+
     /// Puts the lens on the camera. What is in focus stays in focus.
     pub fn apply(&self, camera: &mut Camera, model: &mut CameraModel, lens: &mut Lens) {
         *model = CameraModel::ThinLens;
         match self.effect {
             Effect::Pinhole => *model = CameraModel::Pinhole,
             Effect::Photographic { focal_length_mm, f_number } => {
-                camera.vfov_radians = vfov_of_focal_length(focal_length_mm);
+                if camera.sensor == Sensor::EYE {
+                    camera.sensor = Sensor::FULL_FRAME;
+                }
+                camera.set_focal_length_mm(focal_length_mm);
                 lens.diameter = camera.diameter_of_f_number(f_number) as f32;
             }
-            Effect::Pupil { diameter_mm } => lens.diameter = camera.units_of_mm(diameter_mm) as f32,
+            Effect::Eye { pupil_mm } => {
+                camera.sensor = Sensor::EYE;
+                camera.set_focal_length_mm(EYE_MM);
+                lens.diameter = camera.units_of_mm(pupil_mm) as f32;
+            }
         }
     }
 }

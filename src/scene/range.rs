@@ -9,6 +9,10 @@ pub const PLACES: [f64; 2] = [-(MAX_LENGTH as f64), MAX_LENGTH as f64];
 pub const VFOV_DEGREES: [f64; 2] = [0.01, 175.0];
 /// The length of a scene unit, in metres.
 pub const METRES_PER_UNIT: [f64; 2] = [1e-15, 1e15];
+/// The width and the height of the film, in millimetres.
+pub const SENSOR_SIDES_MM: [f64; 2] = [0.1, 1000.0];
+/// The focal length, in millimetres.
+pub const FOCAL_LENGTHS_MM: [f64; 2] = [0.01, 1e5];
 /// The diameter of a lens or a hole, in scene units.
 pub const DIAMETERS: [f32; 2] = [0.0, MAX_LENGTH];
 /// The f-number.

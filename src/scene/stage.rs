@@ -3,7 +3,7 @@
 use super::mesh::{Mesh, Placement};
 use super::{
     Aperture, Background, Camera, CameraModel, Checker, DEFAULT_SHUTTER, DirectionalLight, Hole, Lens, Light,
-    LightKind, Material, Matte, Plane, Scene, Shaded, Triangle, View,
+    LightKind, Material, Matte, Plane, Scene, Sensor, Shaded, Triangle, View,
 };
 use crate::error::Result;
 use glam::{DVec3, Vec3};
@@ -177,6 +177,8 @@ fn camera(center: DVec3, half: DVec3) -> Camera {
             up: DVec3::Y,
             vfov_radians: VFOV_DEGREES.to_radians(),
             metres_per_unit: 1.0,
+            sensor: Sensor::FULL_FRAME,
+            focus_breathing: false,
         };
         camera.with_few_digits()
     };

@@ -74,6 +74,7 @@ fn text(value: &Value, named: impl Fn(&Path) -> PathBuf) -> OsString {
         Value::Vector(place) => format!("{},{},{}", place.x, place.y, place.z).into(),
         Value::Size([width, height]) => format!("{width}x{height}").into(),
         Value::Name(name) => name.into(),
+        Value::Sensor(sensor) => sensor.to_string().into(),
         Value::Tolerance(tolerance) => tolerance.to_string().into(),
         Value::File(file) => file.as_deref().map_or(NONE.into(), |file| named(file).into()),
     }

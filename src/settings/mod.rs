@@ -18,8 +18,7 @@ pub use sweep::Sweep;
 
 use crate::error::{Error, Result};
 use crate::scene::{
-    Aperture, Camera, CameraModel, FRAME_HEIGHT_MM, FullScale, Hole, Lens, Overlay, Preset, SceneRef, Source,
-    View, in_range,
+    Aperture, Camera, CameraModel, FullScale, Hole, Lens, Overlay, Preset, SceneRef, Source, View, in_range,
 };
 use std::path::Path;
 
@@ -109,7 +108,16 @@ impl Estimator {
         self.noise_threshold > 0.0
     }
 
-    /// The f-number of the lens. Infinite if its diameter is 0.
+    /// The camera with its film where it stands when the lens is in focus.
+    pub fn focused_camera(&self) -> Camera {
+        match self.model {
+            CameraModel::ThinLens => self.camera.focused(&self.lens),
+            CameraModel::Pinhole | CameraModel::Hole => self.camera,
+        }
+    }
+
+    /// The f-number of the lens when it is focused at infinity, which is the one engraved on a lens. Infinite if the
+    /// diameter is 0.
     pub fn f_number(&self) -> f64 {
         self.camera.f_number(self.lens.diameter)
     }
@@ -251,7 +259,7 @@ impl Settings {
 
     /// The length in millimetres on the film of so many pixels of the picture.
     pub fn mm_of_pixels(&self, pixels: f64) -> f64 {
-        pixels * FRAME_HEIGHT_MM / f64::from(self.estimator.size[1])
+        pixels * self.estimator.camera.mm_per_pixel(self.estimator.size[1])
     }
 
     /// The depths between which the lens shows everything sharp, in scene units. The far one may be infinite.
@@ -268,7 +276,7 @@ impl Settings {
 
     /// The brightness of the picture relative to the scene with its own lens, shutter and film. It is proportional to
     /// the shutter time and to the speed of the film. Unless the exposure is locked, it is also proportional to the
-    /// inverse square of the f-number and to the area of the aperture relative to that of a disc. A pinhole would let in no
+    /// inverse square of the f-number of the focused lens, and to the area of the aperture relative to that of a disc. A pinhole would let in no
     /// light, so it is treated as if the exposure were locked.
     pub fn exposure(&self) -> f32 {
         let (estimator, scene) = (&self.estimator, &*self.estimator.scene);
@@ -276,7 +284,10 @@ impl Settings {
             f64::from(estimator.shutter / scene.shutter) * f64::from(self.view.iso / scene.view.iso);
         if !self.view.exposure_lock {
             let f_numbers = match estimator.model {
-                CameraModel::ThinLens => [scene.camera.f_number(scene.lens.diameter), estimator.f_number()],
+                CameraModel::ThinLens => [
+                    scene.camera.focused(&scene.lens).f_number(scene.lens.diameter),
+                    estimator.focused_camera().f_number(estimator.lens.diameter),
+                ],
                 CameraModel::Pinhole => [1.0; 2],
                 CameraModel::Hole => [
                     scene.camera.f_number(scene.hole.diameter),
@@ -311,7 +322,7 @@ impl Settings {
         for setting in list::own() {
             setting.check(&setting.get(self), called)?;
         }
-        let Estimator { camera, aperture, jitter, .. } = &self.estimator;
+        let Estimator { camera, model, lens, aperture, jitter, .. } = &self.estimator;
         if needs_moments(self.view.overlay) && !self.estimator.has_moments() {
             return out_of_range("the error is not known where no moments are kept".into());
         }
@@ -319,6 +330,10 @@ impl Settings {
         camera
             .validate(|| names(["eye", "look-at", "up"]))
             .or_else(|reason| out_of_range(format!("the camera has no view: {reason}")))?;
+        if *model == CameraModel::ThinLens {
+            let distance = || list::setting("focal-distance").name(called);
+            camera.can_focus(lens).or_else(|reason| out_of_range(format!("{} {reason}", distance())))?;
+        }
         aperture.validate(|| names(["blades", "cats-eye", "aperture-image"])).or_else(out_of_range)?;
         // With a wide jitter, chance may land more samples than this in a pixel. 2^16 is 16 standard deviations, which
         // never happens.

@@ -126,6 +126,7 @@ fn item(is: &Value, files: &Files) -> Result<Option<Item>> {
         Value::Name(NONE) | Value::File(None) => return Ok(None),
         Value::Name(name) => value(*name),
         Value::Tolerance(Tolerance::Pixels(pixels)) => value(digits(*pixels)),
+        Value::Sensor(sensor) => value(sensor.to_string()),
         Value::Tolerance(tolerance) => value(tolerance.to_string()),
         Value::File(Some(file)) => value(files.seen(file)?),
     }))

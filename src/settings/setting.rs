@@ -2,7 +2,7 @@
 
 use super::Settings;
 use crate::error::{Error, Result};
-use crate::scene::{ApertureImage, Tolerance, in_range, in_range_or_zero};
+use crate::scene::{ApertureImage, Sensor, Tolerance, in_range, in_range_or_zero};
 use glam::DVec3;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -89,6 +89,8 @@ pub enum Access {
     Image(Field<Option<ApertureImage>>),
     /// A length on the film or in the picture, which is as much blur as counts as sharp.
     Tolerance(Field<Tolerance>),
+    /// The size of the film, by the name of a format or by its sides in millimetres.
+    Sensor(Field<Sensor>),
 }
 
 /// One of the choices of a setting.
@@ -185,6 +187,8 @@ pub enum Value {
     File(Option<PathBuf>),
     /// For [`Access::Tolerance`].
     Tolerance(Tolerance),
+    /// For [`Access::Sensor`].
+    Sensor(Sensor),
 }
 
 /// Where the user gives a setting. This decides what an error calls it.
@@ -223,6 +227,7 @@ impl Setting {
             Access::Choice(field, _) => Value::Name((field.get)(settings)),
             Access::Image(field) => Value::File((field.get)(settings).map(|image| image.file.clone())),
             Access::Tolerance(field) => Value::Tolerance((field.get)(settings)),
+            Access::Sensor(field) => Value::Sensor((field.get)(settings)),
         }
     }
 
@@ -248,6 +253,7 @@ impl Setting {
                 (field.set)(settings, image);
             }
             (Access::Tolerance(field), Value::Tolerance(value)) => (field.set)(settings, *value),
+            (Access::Sensor(field), Value::Sensor(value)) => (field.set)(settings, *value),
             (_, other) => unreachable!("{} is never {other:?}", self.flag),
         }
         Ok(())
@@ -277,6 +283,7 @@ impl Setting {
                     .and_then(|()| in_range(*height, *range).map_err(of("height")))
             }
             (Access::Tolerance(_), Value::Tolerance(value)) => value.check(),
+            (Access::Sensor(_), Value::Sensor(value)) => value.check(),
             _ => Ok(()),
         };
         checked.map_err(|reason| Error::OutOfRange(format!("{} {reason}", self.name(called))))
@@ -316,6 +323,7 @@ impl Setting {
             ),
             Access::Image(_) => (Some(file(Path::new(text))), ""),
             Access::Tolerance(_) => return Ok(Value::Tolerance(text.parse()?)),
+            Access::Sensor(_) => return Ok(Value::Sensor(text.parse()?)),
         };
         value.ok_or_else(|| right.into())
     }

@@ -1,40 +1,101 @@
 //! The part of the panel for the lens, the ideal pinhole or the hole.
 
-use super::widgets::{Layout, note_item};
+use super::numbers::length;
+use super::widgets::{Layout, note_item, tooltip};
 use crate::app::panel::Panel;
-use crate::scene::CameraModel;
-use crate::settings::Part;
+use crate::scene::{CameraModel, FOCAL_DISTANCES};
+use crate::settings::{Part, Settings};
 use imgui::Ui;
 
-/// The f-numbers of the full stops, each of which has a button.
-const STOPS: [(f64, &str); 11] = [
+/// The f-numbers of the third stops, as they are engraved on lenses. Every third one is a full stop and has a button.
+const THIRD_STOPS: [(f64, &str); 31] = [
+    (1.0, "f/1"),
+    (1.1, "f/1.1"),
     (1.2, "f/1.2"),
     (1.4, "f/1.4"),
+    (1.6, "f/1.6"),
+    (1.8, "f/1.8"),
     (2.0, "f/2"),
+    (2.2, "f/2.2"),
+    (2.5, "f/2.5"),
     (2.8, "f/2.8"),
+    (3.2, "f/3.2"),
+    (3.5, "f/3.5"),
     (4.0, "f/4"),
+    (4.5, "f/4.5"),
+    (5.0, "f/5"),
     (5.6, "f/5.6"),
+    (6.3, "f/6.3"),
+    (7.1, "f/7.1"),
     (8.0, "f/8"),
+    (9.0, "f/9"),
+    (10.0, "f/10"),
     (11.0, "f/11"),
+    (13.0, "f/13"),
+    (14.0, "f/14"),
     (16.0, "f/16"),
+    (18.0, "f/18"),
+    (20.0, "f/20"),
     (22.0, "f/22"),
+    (25.0, "f/25"),
+    (29.0, "f/29"),
     (32.0, "f/32"),
 ];
 const STOPS_PER_ROW: usize = 6;
+/// Two f-numbers that differ by less than this share are the same stop.
+const SAME_STOP: f64 = 1e-3;
 
 impl Panel {
-    /// Draws the list of camera models, the f-number, and a button for each full stop.
+    /// Draws the list of camera models, the sensor, the focal length, the f-number with its stops, and what follows.
     pub(super) fn lens(&mut self, ui: &Ui, layout: &mut Layout) {
         self.rows(ui, Part::Model, layout);
         self.rows(ui, Part::Lens, layout);
-        let estimator = &mut self.settings.estimator;
-        if estimator.model != CameraModel::ThinLens {
+        let camera = &self.settings.estimator.camera;
+        ui.text(format!("35 mm equivalent: {:.0} mm", camera.focal_length_35mm()));
+        if self.settings.estimator.model != CameraModel::ThinLens {
             return;
         }
+        let before = self.settings.estimator.lens.diameter;
+        self.stops(ui, layout);
+        if self.settings.estimator.lens.diameter.to_bits() != before.to_bits() {
+            self.zoom_lock.keeps_f_number = true;
+        }
+        ui.checkbox("Keep the f-number", &mut self.zoom_lock.keeps_f_number);
+        note_item(ui, "Keep the f-number", layout);
+        tooltip(
+            ui,
+            "On: zooming and another sensor keep the f-number, as the zoom lenses of photographers do. Off: the lens keeps its diameter. It follows which of the two you set last.",
+        );
+        let hyperfocal = self.settings.hyperfocal_distance();
+        ui.disabled(hyperfocal <= 0.0, || {
+            if ui.button("Hyperfocal") {
+                self.settings.estimator.lens.focal_distance = at_or_beyond(hyperfocal);
+            }
+        });
+        note_item(ui, "Hyperfocal", layout);
+        tooltip(
+            ui,
+            "Focuses at the hyperfocal distance: everything is sharp from half this distance to the horizon.",
+        );
+        ui.same_line();
+        ui.text(format!("at {}", length(hyperfocal)));
+        if let Some([of_lens, at_iso_100]) = exposure_values(&self.settings) {
+            ui.text(format!("exposure value {of_lens:.1}, at ISO 100 {at_iso_100:.1}"));
+            tooltip(
+                ui,
+                "log2(N^2 / t), where N is the f-number and t the shutter time in seconds. The second number is for the same brightness with film of ISO 100: full sun is about 15, a lit room about 6.",
+            );
+        }
+    }
+
+    /// Draws a button for each full stop, and two that go on by a third of a stop.
+    fn stops(&mut self, ui: &Ui, layout: &mut Layout) {
+        let estimator = &mut self.settings.estimator;
+        let now = estimator.f_number();
         let width = (ui.content_region_avail()[0] + 4.0) / STOPS_PER_ROW as f32 - 4.0;
         let _spacing = ui.push_style_var(imgui::StyleVar::ItemSpacing([4.0, 4.0]));
         let _padding = ui.push_style_var(imgui::StyleVar::FramePadding([2.0, 3.0]));
-        for (i, (stop, name)) in STOPS.into_iter().enumerate() {
+        for (i, (stop, name)) in THIRD_STOPS.into_iter().step_by(3).enumerate() {
             if i % STOPS_PER_ROW != 0 {
                 ui.same_line();
             }
@@ -43,5 +104,40 @@ impl Panel {
             }
             note_item(ui, name, layout);
         }
+        let stops = THIRD_STOPS.map(|(stop, _)| stop);
+        let wider = stops.into_iter().rev().find(|stop| *stop < now * (1.0 - SAME_STOP));
+        let narrower = stops.into_iter().find(|stop| *stop > now * (1.0 + SAME_STOP));
+        let half = 0.5 * (ui.content_region_avail()[0] - 4.0);
+        for (name, help, next) in [
+            ("1/3 stop wider", "Lets in a quarter more light: the next wider stop.", wider),
+            ("1/3 stop narrower", "Lets in a fifth less light: the next narrower stop.", narrower),
+        ] {
+            ui.disabled(next.is_none(), || {
+                if ui.button_with_size(name, [half, 0.0])
+                    && let Some(stop) = next
+                {
+                    estimator.set_f_number(stop);
+                }
+            });
+            note_item(ui, name, layout);
+            tooltip(ui, help);
+            ui.same_line();
+        }
+        ui.new_line();
     }
+}
+
+/// The exposure value of lens and shutter, and that of film of ISO 100 with the same brightness. `None` for a lens that
+/// lets in no light.
+fn exposure_values(settings: &Settings) -> Option<[f64; 2]> {
+    let estimator = &settings.estimator;
+    let of_lens = (estimator.f_number().powi(2) / f64::from(estimator.shutter)).log2();
+    of_lens.is_finite().then(|| [of_lens, of_lens - (f64::from(settings.view.iso) / 100.0).log2()])
+}
+
+/// The nearest f32 that is not nearer than this distance, within the range of focal distances.
+fn at_or_beyond(distance: f64) -> f32 {
+    let rounded = distance as f32;
+    let beyond = if f64::from(rounded) < distance { rounded.next_up() } else { rounded };
+    beyond.clamp(FOCAL_DISTANCES[0], FOCAL_DISTANCES[1])
 }

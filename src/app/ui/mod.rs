@@ -11,6 +11,7 @@ mod overlay;
 mod paper;
 mod rows;
 mod sampling;
+mod sensor;
 mod tolerance;
 mod widgets;
 
@@ -306,6 +307,8 @@ impl Panel {
 
     /// Draws the rows of a part of the panel.
     fn rows(&mut self, ui: &Ui, part: Part, layout: &mut Layout) {
+        let before = (self.settings.estimator.camera, self.settings.estimator.lens);
         rows::rows(ui, part, &mut self.settings, &self.initial, layout);
+        self.zoom_lock.follow(part, before, &mut self.settings.estimator);
     }
 }

@@ -9,10 +9,14 @@ impl Panel {
     pub(super) fn numbers(&self, ui: &Ui, picked: Option<&Picked>) {
         let estimator = &self.settings.estimator;
         let (camera, lens, height) = (&estimator.camera, &estimator.lens, estimator.size[1]);
-        ui.text(format!("{:.0} mm on a 24 mm high frame", camera.focal_length_mm()));
+        let focused = estimator.focused_camera();
+        ui.text(format!("{:.1} mm, {:.1} degrees high", camera.focal_length_mm(), focused.vfov_degrees()));
         if estimator.model == CameraModel::ThinLens {
             let [near, far] = self.settings.depth_of_field();
+            let focused = f64::from(lens.focal_distance);
             ui.text(format!("sharp from {} to {}", length(near), length(far)));
+            let parts = [focused - near, far - focused, far - near].map(length);
+            ui.text(format!("{} in front, {} behind, {} in all", parts[0], parts[1], parts[2]));
             ui.text(format!("hyperfocal distance {}", length(self.settings.hyperfocal_distance())));
         }
         let Some(picked) = picked else {

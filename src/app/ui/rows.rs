@@ -1,5 +1,6 @@
 //! The rows of the panel, made from the list of settings.
 
+use super::sensor::sensor;
 use super::tolerance::tolerance;
 use super::widgets::{Layout, combo, named, note_item, tooltip};
 use crate::scene::PLACES;
@@ -59,6 +60,7 @@ fn draw(
         (Widget::Drag, Access::Vector(field, _)) => {
             named(ui, label, help, layout, |id| drag(ui, id, field, settings));
         }
+        (Widget::List, Access::Sensor(field)) => sensor(ui, row, field, settings, layout),
         (Widget::Length, Access::Tolerance(field)) => tolerance(ui, row, field, settings, layout),
         _ => {}
     }

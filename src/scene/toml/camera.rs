@@ -4,8 +4,8 @@ use super::error::{ParseError, named};
 use super::number::{Positive, Vector, ranged};
 use crate::scene::{
     ANAMORPHICS, Aperture, ApertureImage, BLADES, CATS_EYES, Camera, CameraModel, DEFAULT_SHUTTER, DIAMETERS,
-    F_NUMBERS, FOCAL_DISTANCES, Hole, ISOS, Lens, METRES_PER_UNIT, PRESETS, ROTATIONS, ROUNDNESSES, SHUTTERS,
-    VFOV_DEGREES, View, in_range, in_range_or_zero,
+    F_NUMBERS, FOCAL_DISTANCES, FOCAL_LENGTHS_MM, Hole, ISOS, Lens, METRES_PER_UNIT, PRESETS, ROTATIONS,
+    ROUNDNESSES, SHUTTERS, Sensor, VFOV_DEGREES, View, in_range, in_range_or_zero,
 };
 use glam::DVec3;
 use serde::Deserialize;
@@ -20,7 +20,11 @@ pub(super) struct CameraTable {
     #[serde(default = "upwards")]
     up: Vector,
     preset: Option<Spanned<String>>,
+    sensor: Option<Spanned<String>>,
     vfov_degrees: Option<Spanned<f64>>,
+    focal_length: Option<Spanned<f64>>,
+    #[serde(default)]
+    focus_breathing: bool,
     view_distance: Option<Positive>,
     pixel_size: Option<Positive>,
     metres_per_unit: Option<Spanned<f64>>,
@@ -41,7 +45,7 @@ pub(super) struct CameraTable {
     iso: Option<Spanned<f32>>,
 }
 
-const NEEDS_VFOV: &str = "the camera needs either vfov_degrees, or view_distance and pixel_size, or a preset that has a field of view";
+const NEEDS_VFOV: &str = "the camera needs either vfov_degrees, or focal_length, or view_distance and pixel_size, or a preset that has a field of view";
 
 fn upwards() -> Vector {
     Vector(DVec3::Y)
@@ -74,17 +78,25 @@ impl Shot {
         let metres_per_unit = table.metres_per_unit.as_ref();
         let metres_per_unit = ranged("metres_per_unit", metres_per_unit, METRES_PER_UNIT)?.unwrap_or(1.0);
         let (eye, look_at, up) = (table.eye.0, table.look_at.0, table.up.0);
-        let mut camera = Camera { eye, look_at, up, vfov_radians: f64::NAN, metres_per_unit };
+        let sensor = table.sensor.as_ref().map(sensor).transpose()?.unwrap_or(Sensor::FULL_FRAME);
+        let vfov_radians = f64::NAN;
+        let focus_breathing = table.focus_breathing;
+        let mut camera = Camera { eye, look_at, up, vfov_radians, metres_per_unit, sensor, focus_breathing };
         let mut model = CameraModel::default();
         let focal_distance = &table.focal_distance;
         ranged("focal_distance", Some(focal_distance), FOCAL_DISTANCES)?;
         let mut lens = Lens { diameter: f32::NAN, focal_distance: *focal_distance.get_ref() };
         ranged("vfov_degrees", table.vfov_degrees.as_ref(), VFOV_DEGREES)?;
-        let vfov_radians = table.vfov_radians(size).map_err(|message| ParseError::at(span, message))?;
+        ranged("focal_length", table.focal_length.as_ref(), FOCAL_LENGTHS_MM)?;
+        let vfov_radians =
+            table.vfov_radians(size, &sensor).map_err(|message| ParseError::at(span, message))?;
         if let Some(preset) = preset {
             preset.apply(&mut camera, &mut model, &mut lens);
         }
         // Other keys change what the preset gives.
+        if table.sensor.is_some() {
+            camera.sensor = sensor;
+        }
         camera.vfov_radians = vfov_radians.unwrap_or(camera.vfov_radians);
         if camera.vfov_radians.is_nan() {
             return Err(ParseError::at(span, NEEDS_VFOV));
@@ -110,6 +122,11 @@ impl Shot {
                 ));
             }
         }
+        if model == CameraModel::ThinLens {
+            camera
+                .can_focus(&lens)
+                .map_err(|wrong| ParseError::at(focal_distance, &format!("focal_distance {wrong}")))?;
+        }
         let hole = ranged("hole_diameter", table.hole_diameter.as_ref(), DIAMETERS)?;
         let diameter = hole.unwrap_or(camera.default_hole_diameter());
         Ok(Self {
@@ -126,17 +143,24 @@ impl Shot {
 
 impl CameraTable {
     /// The vertical field of view, if the table gives it.
-    fn vfov_radians(&self, size: [u32; 2]) -> Result<Option<f64>, &'static str> {
-        match (&self.vfov_degrees, &self.view_distance, &self.pixel_size) {
-            (None, None, None) => Ok(None),
-            (Some(degrees), None, None) => Ok(Some(degrees.get_ref().to_radians())),
-            (None, Some(distance), Some(pixel)) => {
+    fn vfov_radians(&self, size: [u32; 2], sensor: &Sensor) -> Result<Option<f64>, &'static str> {
+        match (&self.vfov_degrees, &self.focal_length, &self.view_distance, &self.pixel_size) {
+            (None, None, None, None) => Ok(None),
+            (Some(degrees), None, None, None) => Ok(Some(degrees.get_ref().to_radians())),
+            (None, Some(mm), None, None) => Ok(Some(sensor.vfov_of_focal_length(*mm.get_ref()))),
+            (None, None, Some(distance), Some(pixel)) => {
                 let half_height = 0.5 * f64::from(size[1]) * pixel.f64();
                 Ok(Some(2.0 * (half_height / distance.f64()).atan()))
             }
             _ => Err(NEEDS_VFOV),
         }
     }
+}
+
+fn sensor(text: &Spanned<String>) -> Result<Sensor, ParseError> {
+    let sensor: Sensor = text.get_ref().parse().map_err(|message: String| ParseError::at(text, &message))?;
+    sensor.check().map_err(|wrong| ParseError::at(text, &format!("sensor {wrong}")))?;
+    Ok(sensor)
 }
 
 fn aperture(span: &Spanned<CameraTable>, folder: &Path) -> Result<Aperture, ParseError> {

@@ -180,11 +180,11 @@ fn value_of(table: Option<&str>, key: &str) -> &'static str {
             | "normal" | "position" | "direction" | "rotate_degrees",
         ) => THREE_NUMBERS,
         (_, "vertices") => "three corners, [[x, y, z], [x, y, z], [x, y, z]]",
-        (_, "material" | "file" | "preset" | "model" | "overlay" | "aperture_image") => {
+        (_, "material" | "file" | "preset" | "sensor" | "model" | "overlay" | "aperture_image") => {
             "a name in quotes, such as \"name\""
         }
         (_, "tolerance") => "a text like \"0.03 mm\", or a number of pixels",
-        (_, "shadows" | "upright" | "exposure_lock") => "true or false, without quotes",
+        (_, "shadows" | "upright" | "focus_breathing" | "exposure_lock") => "true or false, without quotes",
         (_, "blades" | "max_bounces") => "a whole number, 0 or more",
         _ => "a number",
     }

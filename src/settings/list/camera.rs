@@ -1,8 +1,8 @@
 //! The position and the field of view of the camera.
 
-use super::{EVEN, camera, field, row};
-use crate::scene::{METRES_PER_UNIT, PLACES, PRESETS, Preset, VFOV_DEGREES};
-use crate::settings::{Access, Choice, Field, Key, Part, Role, Setting, Slider, Widget};
+use super::{EVEN, LOGARITHMIC, camera, field, row};
+use crate::scene::{FOCAL_LENGTHS_MM, METRES_PER_UNIT, PLACES, PRESETS, Preset, VFOV_DEGREES};
+use crate::settings::{Access, Choice, Estimator, Field, Key, Part, Role, Setting, Slider, Widget};
 
 /// The position and the field of view of the camera. Known lenses come before the settings that they change.
 pub(super) static CAMERA: &[Setting] = &[
@@ -56,19 +56,39 @@ pub(super) static CAMERA: &[Setting] = &[
         row: None,
     },
     Setting {
+        flag: "sensor",
+        letter: None,
+        value_name: "FORMAT",
+        help: "The size of the film or sensor: full-frame, aps-c, micro-four-thirds, medium-format, 1-inch, phone, eye, or \
+               its width and height in mm, such as 36x24. The field of view stays as it is, so the focal length changes",
+        default: "the scene's, or full-frame",
+        role: Role::Estimator,
+        key: camera("sensor"),
+        access: Access::Sensor(field!(estimator.camera.sensor)),
+        row: row(
+            Part::Lens,
+            "Sensor",
+            "The size of the film or sensor. A picture has its height. The field of view stays as it is, so another lens gives the same picture: its focal length changes.",
+            Widget::List,
+        ),
+    },
+    Setting {
         flag: "preset",
         letter: None,
         value_name: "NAME",
         help: "A known lens: a pinhole; a 50 mm lens, which also sets the field of view; or the human eye, by the width \
-               of its pupil. The film of a 50 mm lens stays where it is for focus at infinity. So at close range the \
-               field of view is wider than that of a real lens: at 0.5 m it is that of a 45.5 mm lens. Other options \
-               change the lens further",
+               of its pupil, which also sets the sensor and the field of view. Without --focus-breathing, the film \
+               of a 50 mm lens stays where it is for focus at infinity. So at close range the field of view is wider \
+               than that of a real lens: at 0.5 m it is that of a 45.5 mm lens. Other options change the lens further",
         default: "",
-        role: Role::Alias(&["vfov", "camera", "lens-diameter"]),
+        role: Role::Alias(&["sensor", "vfov", "camera", "lens-diameter"]),
         key: camera("preset"),
         access: Access::Choice(
             Field {
-                get: |_| "",
+                get: |settings| {
+                    let Estimator { camera, model, lens, .. } = &settings.estimator;
+                    Preset::on(camera, *model, lens).map_or("", |preset| preset.name)
+                },
                 set: |settings, name| {
                     if let Some(preset) = Preset::named(name) {
                         settings.estimator.take_preset(preset);
@@ -98,7 +118,7 @@ pub(super) static CAMERA: &[Setting] = &[
             table: "camera",
             name: "vfov_degrees",
             otherwise: &["view_distance", "pixel_size"],
-            rests_on: &["size"],
+            rests_on: &["size", "sensor"],
         }),
         access: Access::Double(
             Field {
@@ -110,12 +130,35 @@ pub(super) static CAMERA: &[Setting] = &[
         row: row(
             Part::Viewpoint,
             "Field of view",
-            "The angle from the lower to the upper edge. The f-number changes with it, because the film moves and the lens keeps its diameter.",
+            "The angle from the lower to the upper edge. Zooming moves the film. Under Lens you choose what stays: the f-number or the diameter.",
             Widget::Slider(Slider {
                 range: |_| VFOV_DEGREES.map(|end| end as f32),
                 format: |_| "%.1f degrees".into(),
                 ..Slider { rounds: false, ..EVEN }
             }),
+        ),
+    },
+    Setting {
+        flag: "focal-length",
+        letter: None,
+        value_name: "MM",
+        help: "The focal length in mm, which gives the field of view in another way: the height of the sensor divided by \
+               2 tan(vfov / 2)",
+        default: "",
+        role: Role::Alias(&["vfov"]),
+        key: camera("focal_length"),
+        access: Access::Double(
+            Field {
+                get: |settings| settings.estimator.camera.focal_length_mm(),
+                set: |settings, mm| settings.estimator.camera.set_focal_length_mm(mm),
+            },
+            FOCAL_LENGTHS_MM,
+        ),
+        row: row(
+            Part::Lens,
+            "Focal length",
+            "The focal length as photographers give it: it says how much the lens takes in with this sensor. A longer one shows less, and larger.",
+            Widget::Slider(Slider { range: |_| [2.0, 800.0], format: |_| "%.4g mm".into(), ..LOGARITHMIC }),
         ),
     },
 ];

@@ -59,6 +59,24 @@ pub(super) static LENS: &[Setting] = &[
         row: row(Part::Model, "Camera", "A lens, an ideal pinhole, or a hole without a lens.", Widget::List),
     },
     Setting {
+        flag: "focus-breathing",
+        letter: None,
+        value_name: "true|false",
+        help: "Whether the lens moves away from the film to focus nearer, as a lens does that is screwed out. This narrows \
+               the field of view, and blurs more. Otherwise the film stays in its place",
+        default: "the scene's, or false",
+        role: Role::Estimator,
+        key: camera("focus_breathing"),
+        access: Access::Switch(field!(estimator.camera.focus_breathing)),
+        row: Some(Row {
+            part: Part::Lens,
+            label: "Focus breathing",
+            help: "On: the lens moves away from the film to focus nearer, as a lens does that is screwed out. Near things then fill more of the picture, and blur is larger. Off: the film stays in its place.",
+            shown: has_lens,
+            widget: Widget::Box,
+        }),
+    },
+    Setting {
         flag: "lens-diameter",
         letter: None,
         value_name: "L",
@@ -69,7 +87,7 @@ pub(super) static LENS: &[Setting] = &[
             table: "camera",
             name: "lens_diameter",
             otherwise: &[],
-            rests_on: &["vfov", "metres-per-unit"],
+            rests_on: &["vfov", "metres-per-unit", "sensor"],
         }),
         access: Access::Single(field!(estimator.lens.diameter), DIAMETERS),
         row: Some(Row {
@@ -88,8 +106,8 @@ pub(super) static LENS: &[Setting] = &[
         flag: "f-number",
         letter: None,
         value_name: "N",
-        help: "The f-number, which gives the lens diameter in another way: the distance of the film behind the lens \
-               divided by the diameter. That distance is 12 mm / tan(vfov / 2)",
+        help: "The f-number, which gives the lens diameter in another way: the focal length divided by the diameter. The \
+               focal length is the height of the sensor, 24 mm on full frame, divided by 2 tan(vfov / 2)",
         default: "",
         role: Role::Alias(&["lens-diameter"]),
         key: camera("f_number"),
@@ -103,7 +121,7 @@ pub(super) static LENS: &[Setting] = &[
         row: Some(Row {
             part: Part::Lens,
             label: "f-number",
-            help: "The lens diameter as photographers give it: the distance of the film divided by the diameter. Each full stop has a button, and halves the light.",
+            help: "The lens diameter as photographers give it: the focal length divided by the diameter. Each full stop has a button, and halves the light.",
             shown: has_lens,
             widget: Widget::Slider(Slider {
                 range: |_| [0.5, 128.0],
