@@ -64,6 +64,56 @@ fn of_an_option_that_is_given_twice_the_last_counts() {
     assert_eq!(scenes.code, 2, "two scenes are not one: {}", scenes.stdout);
 }
 
+/// Catches an option that takes a number only as computers write it, a unit that counts as another length than the
+/// scene says, also where the scene's unit is given behind it, and a sweep that reads numbers in another way.
+#[test]
+fn numbers_are_given_as_people_type_them() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    let saved = |options: &[&str]| {
+        let outcome = run(folder, &[&["save", "-o", "out.toml"], options].concat());
+        assert_eq!(outcome.code, 0, "{options:?}: {}", outcome.stderr);
+        std::fs::read_to_string(folder.join("out.toml")).expect("a scene")
+    };
+    for (typed, plain) in [
+        (&["--shutter", "1/250"][..], &["--shutter", "0.004"][..]),
+        (&["--shutter", "1/250 s"], &["--shutter", "0.004"]),
+        (&["--f-number", "f/2.8"], &["--f-number", "2.8"]),
+        (&["--f-number", "2,8"], &["--f-number", "2.8"]),
+        // A unit of version-4 is 5 cm long.
+        (&["--focal-distance", "1.2m"], &["--focal-distance", "24"]),
+        (&["--lens-diameter", "17 mm"], &["--lens-diameter", "0.34"]),
+        (
+            &["--lens-diameter", "17 mm", "--metres-per-unit", "1 m"],
+            &["--lens-diameter", "0.017", "--metres-per-unit", "1"],
+        ),
+        (&["--vfov", "30°"], &["--vfov", "30"]),
+        (&["--exposure", "-1/2"], &["--exposure", "-0.5"]),
+        (&["--iso", "ISO 400"], &["--iso", "400"]),
+    ] {
+        assert_eq!(saved(typed), saved(plain), "{typed:?}");
+    }
+    for (option, text, part) in [
+        ("--shutter", "1/", "written like 1/250"),
+        ("--f-number", "1/4", "written like 2.8 or f/2.8"),
+        ("--focal-distance", "3 feet", "or like 17 mm, 35 cm or 1.2 m"),
+        ("--iso", "1,600", "could mean two numbers"),
+    ] {
+        let outcome = run(folder, &["save", "-o", "none.toml", option, text]);
+        assert_eq!(outcome.code, 2, "{option} {text}: {}", outcome.stderr);
+        assert!(outcome.stderr.contains(part) && outcome.stderr.contains(text), "{}", outcome.stderr);
+    }
+    let sheet = |list: &str| {
+        let outcome = run(
+            folder,
+            &[&["sweep", "-q", "-o", "sheet.png", "--focal-distances", list], &SMALL[..]].concat(),
+        );
+        assert_eq!(outcome.code, 0, "{}", outcome.stderr);
+        decode_png(&std::fs::read(folder.join("sheet.png")).expect("a sheet"))
+    };
+    assert_eq!(sheet("50cm,1.2m"), sheet("10,24"));
+}
+
 /// Catches a picture that depends on the number of threads.
 #[test]
 fn one_thread_and_two_give_the_same_bytes() {

@@ -177,10 +177,8 @@ fn changed(scene: &SceneRef, random: &mut fastrand::Rng) -> Settings {
             low + random.f64() * (high - low)
         };
         let value = match &setting.access {
-            Access::Single(_, range) | Access::Seconds(_, range) => {
-                Value::Single(part(range.map(f64::from), 99.0) as f32)
-            }
-            Access::Double(_, range) => Value::Double(part(*range, 99.0)),
+            Access::Single(_, range, _) => Value::Single(part(range.map(f64::from), 99.0) as f32),
+            Access::Double(_, range, _) => Value::Double(part(*range, 99.0)),
             Access::Whole(_, range) | Access::WholeOrZero(_, range, _) => {
                 Value::Whole(part(range.map(f64::from), 1e6) as u32)
             }

@@ -32,10 +32,8 @@ fn another(setting: &Setting, now: &Value, folder: &Path) -> Value {
     };
     let single = |now: f32, range: [f32; 2]| number(now.into(), range.map(f64::from)) as f32;
     match (&setting.access, now) {
-        (Access::Single(_, range) | Access::Seconds(_, range), Value::Single(now)) => {
-            Value::Single(single(*now, *range))
-        }
-        (Access::Double(_, range), Value::Double(now)) => Value::Double(number(*now, *range)),
+        (Access::Single(_, range, _), Value::Single(now)) => Value::Single(single(*now, *range)),
+        (Access::Double(_, range, _), Value::Double(now)) => Value::Double(number(*now, *range)),
         (Access::Whole(_, [low, high]), Value::Whole(now)) => {
             Value::Whole(if now < high { now + 1 } else { *low })
         }
@@ -62,10 +60,8 @@ fn another(setting: &Setting, now: &Value, folder: &Path) -> Value {
 fn out_of_range(setting: &Setting) -> Vec<String> {
     let around = |low: f64, high: f64| vec![(low - 1.0).to_string(), (high * 2.0).to_string(), "NaN".into()];
     match &setting.access {
-        Access::Single(_, [low, high]) | Access::Seconds(_, [low, high]) => {
-            around((*low).into(), (*high).into())
-        }
-        Access::Double(_, [low, high]) => around(*low, *high),
+        Access::Single(_, [low, high], _) => around((*low).into(), (*high).into()),
+        Access::Double(_, [low, high], _) => around(*low, *high),
         Access::Whole(_, [low, high]) => {
             let around = [low.checked_sub(1), high.checked_add(1)];
             around.into_iter().flatten().map(|number| number.to_string()).collect()
@@ -147,7 +143,7 @@ fn scene_with(settings: &Settings, instead_of: &str, line: &str) -> String {
             Value::Switch(is) => is.to_string(),
             Value::Vector(place) => format!("{:?}", place.to_array()),
             Value::Size(size) => format!("{size:?}"),
-            Value::Name("none") | Value::File(_) => continue,
+            Value::Name("none") | Value::File(_) | Value::Metres(_) => continue,
             Value::Name(name) => format!("{name:?}"),
             Value::Tolerance(tolerance) => format!("\"{tolerance}\""),
             Value::Sensor(sensor) => format!("\"{sensor}\""),
@@ -289,11 +285,13 @@ fn each_row_fits_its_setting() {
         let within = |[low, high]: [f64; 2]| match &row.widget {
             Widget::Slider(slider) => {
                 let [first, last] = (slider.range)(&plain).map(f64::from);
-                let format = (slider.format)(first as f32);
                 assert!(first < last, "{}: {first} to {last}", row.label);
                 // A range in f64 is met as nearly as f32 can.
                 assert!(first >= low * (1.0 - 1e-6) && last <= high * (1.0 + 1e-6), "{}", row.label);
-                assert!(format.contains('%') || format == "off", "{}: {format}", row.label);
+                // A slider shows its number, and what it shows has a unit or is a number.
+                assert!(
+                    setting.shown(&plain).contains(|letter: char| letter.is_ascii_digit() || letter == 'o')
+                );
                 true
             }
             Widget::BoxOf { ticked, plain } => {
@@ -303,8 +301,8 @@ fn each_row_fits_its_setting() {
             Widget::Box | Widget::List | Widget::Length => false,
         };
         let fits = match &setting.access {
-            Access::Single(_, range) | Access::Seconds(_, range) => within(range.map(f64::from)),
-            Access::Double(_, range) | Access::Vector(_, range) => within(*range),
+            Access::Single(_, range, _) => within(range.map(f64::from)),
+            Access::Double(_, range, _) | Access::Vector(_, range) => within(*range),
             Access::Whole(_, range) | Access::WholeOrZero(_, range, _) => within(range.map(f64::from)),
             Access::Switch(_) => matches!(row.widget, Widget::Box),
             Access::Choice(..) => matches!(row.widget, Widget::List),
@@ -336,8 +334,8 @@ fn tables() -> String {
                         .join(", "),
                     String::new(),
                 ),
-                Access::Single(_, range) | Access::Seconds(_, range) => (String::new(), span(*range)),
-                Access::Double(_, range) | Access::Vector(_, range) => (String::new(), span(*range)),
+                Access::Single(_, range, _) => (String::new(), span(*range)),
+                Access::Double(_, range, _) | Access::Vector(_, range) => (String::new(), span(*range)),
                 Access::Whole(_, range) | Access::Size(_, range) => (String::new(), span(*range)),
                 Access::WholeOrZero(_, range, _) => (String::new(), format!("0, {}", span(*range))),
                 Access::Sensor(_) => (

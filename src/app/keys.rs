@@ -4,7 +4,7 @@ use super::ui::Action;
 use imgui::{Condition, Key, Ui};
 
 /// What the mouse and the keys do, as shown to the user.
-const LIST: [(&str, &str); 19] = [
+const LIST: [(&str, &str); 21] = [
     ("Right click, F", "focus on what is under the pointer"),
     ("Ctrl + wheel", "move the focal plane"),
     ("Click", "draw the optics of this pixel"),
@@ -22,7 +22,9 @@ const LIST: [(&str, &str); 19] = [
     ("Ctrl + S", "save the picture"),
     ("Ctrl + Shift + S", "save the scene"),
     ("Ctrl + C", "copy the command line that renders it"),
-    ("Tab, arrows, Space", "walk through the panel; Ctrl + click types a number"),
+    ("Tab, arrows, Space", "walk through the panel"),
+    ("Ctrl + click, Enter", "type a number into a slider, such as 1/250, f/2.8 or 1.2 m"),
+    ("Left, right", "move the slider under the pointer a little; with Shift, ten times as far"),
     ("?, F1", "this list"),
 ];
 

@@ -15,6 +15,7 @@ mod navigate;
 mod panel;
 mod save_as;
 pub mod telemetry;
+mod typing;
 mod ui;
 mod window;
 mod zoom_lock;

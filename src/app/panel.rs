@@ -5,6 +5,7 @@ use super::area::Placed;
 use super::memory::Memory;
 use super::message::{Kind, Messages, Offer};
 use super::save_as::{self, Files, SaveAs, absolute};
+use super::typing::Typing;
 use super::zoom_lock::ZoomLock;
 use crate::error::{Error, Result};
 use crate::output::{self, Origin, PictureFormat};
@@ -40,6 +41,8 @@ pub(super) struct Panel {
     /// A file or scene to open, which the loader does not know of yet.
     pub(super) to_open: Option<PathBuf>,
     pub(super) messages: Messages,
+    /// The value that is being typed, if there is one.
+    pub(super) typing: Option<Typing>,
     pub(super) optics: Optics,
     pub(super) zoom_lock: ZoomLock,
     /// The picture that is held for comparison, if there is one.
@@ -114,6 +117,7 @@ impl Panel {
             files: Files::default(),
             to_open: None,
             messages: Messages::default(),
+            typing: None,
             optics: Optics { open: options.memory.optics, ..Optics::default() },
             held: None,
             paused: false,

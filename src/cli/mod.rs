@@ -4,7 +4,7 @@ mod settings;
 
 use crate::error::Result;
 use crate::scene::{self, BUILTINS, SceneRef};
-use crate::settings::{DEFAULT_SAMPLES, DeviceChoice, Place, Settings, Sweep, size};
+use crate::settings::{DEFAULT_SAMPLES, DeviceChoice, Place, Settings, Sweep, Value, list, size};
 use clap::{ArgAction, Args, CommandFactory, Parser, Subcommand};
 pub use settings::SettingsArgs;
 use std::ffi::OsString;
@@ -119,14 +119,14 @@ pub struct SweepArgs {
     #[command(flatten)]
     pub settings: SettingsArgs,
     /// Render one picture for each of these f-numbers [default: 2.8,5.6,11,32]
-    #[arg(long, value_name = "N,N,...", value_delimiter = ',', action = ArgAction::Set, group = "swept")]
-    f_numbers: Vec<f64>,
-    /// Render one picture for each of these lens diameters, in scene units; 0 is a pinhole
-    #[arg(long, value_name = "L,L,...", value_delimiter = ',', action = ArgAction::Set, group = "swept")]
-    lens_diameters: Vec<f32>,
-    /// Render one picture for each of these distances of the focal plane, in scene units
-    #[arg(long, value_name = "L,L,...", value_delimiter = ',', action = ArgAction::Set, group = "swept")]
-    focal_distances: Vec<f32>,
+    #[arg(long, value_name = "N,N,...", value_delimiter = ',', value_parser = typed("f-number"), action = ArgAction::Set, group = "swept")]
+    f_numbers: Vec<Value>,
+    /// Render one picture for each of these lens diameters, in scene units or like 17mm; 0 is a pinhole
+    #[arg(long, value_name = "L,L,...", value_delimiter = ',', value_parser = typed("lens-diameter"), action = ArgAction::Set, group = "swept")]
+    lens_diameters: Vec<Value>,
+    /// Render one picture for each of these distances of the focal plane, in scene units or like 1.2m
+    #[arg(long, value_name = "L,L,...", value_delimiter = ',', value_parser = typed("focal-distance"), action = ArgAction::Set, group = "swept")]
+    focal_distances: Vec<Value>,
     /// The number of pictures in a row [default: about the number of rows]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub columns: Option<u32>,
@@ -257,7 +257,7 @@ impl SweepArgs {
         } else if !self.f_numbers.is_empty() {
             Sweep::FNumbers(self.f_numbers.clone())
         } else {
-            Sweep::FNumbers(SWEPT_F_NUMBERS.to_vec())
+            Sweep::FNumbers(SWEPT_F_NUMBERS.map(Value::Double).to_vec())
         }
     }
 }
@@ -280,6 +280,12 @@ impl BenchArgs {
         }
         self.scenes.iter().map(|name| picture(name)).collect()
     }
+}
+
+/// Reads the values of a sweep as the option of this setting reads its value.
+fn typed(flag: &str) -> impl Fn(&str) -> Result<Value, String> + Clone + use<> {
+    let setting = list::setting(flag);
+    move |text| setting.parse(text)
 }
 
 fn parse_place(text: &str) -> Result<Place, String> {

@@ -69,6 +69,7 @@ fn text(value: &Value, named: impl Fn(&Path) -> PathBuf) -> OsString {
     match value {
         Value::Single(number) => number.to_string().into(),
         Value::Double(number) => number.to_string().into(),
+        Value::Metres(number) => format!("{number}m").into(),
         Value::Whole(number) => number.to_string().into(),
         Value::Switch(is) => is.to_string().into(),
         Value::Vector(place) => format!("{},{},{}", place.x, place.y, place.z).into(),

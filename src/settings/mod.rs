@@ -8,6 +8,7 @@ pub mod saved_names;
 mod scene_file;
 mod setting;
 mod sweep;
+mod typed;
 
 pub use arguments::quoted;
 pub use options::Changes;
@@ -15,6 +16,7 @@ pub use setting::{
     Access, Called, Choice, Field, Key, Part, Role, Row, Setting, Slider, Value, Widget, size,
 };
 pub use sweep::Sweep;
+pub use typed::{Unit, metric, rounded};
 
 use crate::error::{Error, Result};
 use crate::scene::{

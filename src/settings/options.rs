@@ -1,7 +1,7 @@
 //! The settings as options of the command line, and the values that were given there.
 
 use super::setting::file;
-use super::{Access, Called, Role, Setting, Settings, Value, list};
+use super::{Access, Called, Role, Setting, Settings, Unit, Value, list};
 use crate::error::Result;
 use clap::builder::{PathBufValueParser, PossibleValue, PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgMatches, Command, FromArgMatches};
@@ -95,7 +95,8 @@ fn option(setting: &'static Setting) -> Arg {
     }
     let text = ValueParser::new(|text: &str| setting.parse(text));
     match &setting.access {
-        Access::Vector(..) => {
+        // clap takes -1/3 and -12,5 for options.
+        Access::Vector(..) | Access::Single(_, _, Unit::Stops | Unit::Degrees) => {
             option.allow_hyphen_values(true).value_name(setting.value_name).value_parser(text)
         }
         Access::Switch(_) => {

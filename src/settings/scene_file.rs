@@ -123,7 +123,7 @@ fn item(is: &Value, files: &Files) -> Result<Option<Item>> {
         Value::Switch(is) => value(*is),
         Value::Vector(place) => list(place.to_array()),
         Value::Size(size) => list(size.map(i64::from)),
-        Value::Name(NONE) | Value::File(None) => return Ok(None),
+        Value::Name(NONE) | Value::File(None) | Value::Metres(_) => return Ok(None),
         Value::Name(name) => value(*name),
         Value::Tolerance(Tolerance::Pixels(pixels)) => value(digits(*pixels)),
         Value::Sensor(sensor) => value(sensor.to_string()),

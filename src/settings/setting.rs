@@ -1,10 +1,10 @@
 //! The description of a setting: its names, its values, and its place in [`Settings`].
 
 use super::Settings;
+use super::typed::{Typed, Unit, rounded};
 use crate::error::{Error, Result};
 use crate::scene::{ApertureImage, Sensor, Tolerance, in_range, in_range_or_zero};
 use glam::DVec3;
-use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 /// A setting. The command line, scene files, saved pictures, the panel and the documentation use only this description.
@@ -67,12 +67,10 @@ pub struct Field<T> {
 
 /// How to read and write the value of a setting, by its type, and the range of the value: the lowest and the highest.
 pub enum Access {
-    /// A number.
-    Single(Field<f32>, [f32; 2]),
-    /// A number in double precision.
-    Double(Field<f64>, [f64; 2]),
-    /// A time in seconds, which can also be given as a fraction.
-    Seconds(Field<f32>, [f32; 2]),
+    /// A number, and what it measures.
+    Single(Field<f32>, [f32; 2], Unit),
+    /// A number in double precision, and what it measures.
+    Double(Field<f64>, [f64; 2], Unit),
     /// A whole number.
     Whole(Field<u32>, [u32; 2]),
     /// A whole number, or 0. The text says what 0 means.
@@ -158,18 +156,16 @@ pub enum Widget {
 pub struct Slider {
     /// Both ends of the slider, given the settings that the scene was opened with.
     pub range: fn(&Settings) -> [f32; 2],
-    /// The format of a value for C's `printf`.
-    pub format: fn(f32) -> Cow<'static, str>,
     /// Whether the scale is logarithmic.
     pub logarithmic: bool,
-    /// Whether the value is rounded to the digits that are shown.
-    pub rounds: bool,
+    /// The number of decimals to which the slider rounds, if it does.
+    pub decimals: Option<i32>,
 }
 
 /// A value of a setting.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Value {
-    /// For [`Access::Single`] and [`Access::Seconds`].
+    /// For [`Access::Single`].
     Single(f32),
     /// For [`Access::Double`].
     Double(f64),
@@ -189,6 +185,9 @@ pub enum Value {
     Tolerance(Tolerance),
     /// For [`Access::Sensor`].
     Sensor(Sensor),
+    /// A length in metres, for a setting in scene units. No setting has it as its value: it becomes a length in scene
+    /// units when it is set.
+    Metres(f64),
 }
 
 /// Where the user gives a setting. This decides what an error calls it.
@@ -218,8 +217,8 @@ impl Setting {
     /// The value of the setting.
     pub fn get(&self, settings: &Settings) -> Value {
         match &self.access {
-            Access::Single(field, _) | Access::Seconds(field, _) => Value::Single((field.get)(settings)),
-            Access::Double(field, _) => Value::Double((field.get)(settings)),
+            Access::Single(field, ..) => Value::Single((field.get)(settings)),
+            Access::Double(field, ..) => Value::Double((field.get)(settings)),
             Access::Whole(field, _) | Access::WholeOrZero(field, ..) => Value::Whole((field.get)(settings)),
             Access::Switch(field) => Value::Switch((field.get)(settings)),
             Access::Vector(field, _) => Value::Vector((field.get)(settings)),
@@ -237,10 +236,12 @@ impl Setting {
     /// The errors of reading an image.
     pub fn set(&self, settings: &mut Settings, value: &Value) -> Result<()> {
         match (&self.access, value) {
-            (Access::Single(field, _) | Access::Seconds(field, _), Value::Single(value)) => {
-                (field.set)(settings, *value);
+            (Access::Single(field, ..), Value::Single(value)) => (field.set)(settings, *value),
+            (Access::Single(field, _, Unit::Length), Value::Metres(metres)) => {
+                let units = metres / settings.estimator.camera.metres_per_unit;
+                (field.set)(settings, units as f32);
             }
-            (Access::Double(field, _), Value::Double(value)) => (field.set)(settings, *value),
+            (Access::Double(field, ..), Value::Double(value)) => (field.set)(settings, *value),
             (Access::Whole(field, _) | Access::WholeOrZero(field, ..), Value::Whole(value)) => {
                 (field.set)(settings, *value);
             }
@@ -265,10 +266,8 @@ impl Setting {
     /// [`Error::OutOfRange`] with the name of the setting, the value and the range.
     pub fn check(&self, value: &Value, called: Called) -> Result<()> {
         let checked = match (&self.access, value) {
-            (Access::Single(_, range) | Access::Seconds(_, range), Value::Single(value)) => {
-                in_range(*value, *range)
-            }
-            (Access::Double(_, range), Value::Double(value)) => in_range(*value, *range),
+            (Access::Single(_, range, _), Value::Single(value)) => in_range(*value, *range),
+            (Access::Double(_, range, _), Value::Double(value)) => in_range(*value, *range),
             (Access::Whole(_, range), Value::Whole(value)) => in_range(*value, *range),
             (Access::WholeOrZero(_, range, zero), Value::Whole(value)) => {
                 in_range_or_zero(*value, *range, zero)
@@ -289,23 +288,68 @@ impl Setting {
         checked.map_err(|reason| Error::OutOfRange(format!("{} {reason}", self.name(called))))
     }
 
-    /// Parses a value from the text of the command line.
+    /// The value as a number. `None` if it is none.
+    pub fn number(&self, settings: &Settings) -> Option<f64> {
+        match self.get(settings) {
+            Value::Single(number) => Some(number.into()),
+            Value::Double(number) => Some(number),
+            Value::Whole(number) => Some(number.into()),
+            _ => None,
+        }
+    }
+
+    /// Sets a value that is a number.
+    pub fn set_number(&self, settings: &mut Settings, number: f64) {
+        match &self.access {
+            Access::Single(field, ..) => (field.set)(settings, number as f32),
+            Access::Double(field, ..) => (field.set)(settings, number),
+            Access::Whole(field, _) | Access::WholeOrZero(field, ..) => {
+                (field.set)(settings, number.round() as u32);
+            }
+            _ => {}
+        }
+    }
+
+    /// The value as the panel shows it beside its name, with its unit. Empty if it is no number.
+    pub fn shown(&self, settings: &Settings) -> String {
+        if let Value::Tolerance(tolerance) = self.get(settings) {
+            return match tolerance {
+                Tolerance::Film(mm) => format!("{} mm", rounded(mm.into(), 3)),
+                Tolerance::Pixels(pixels) => format!("{} px", rounded(pixels.into(), 3)),
+            };
+        }
+        let Some(number) = self.number(settings) else { return String::new() };
+        match &self.access {
+            Access::Single(_, _, unit) | Access::Double(_, _, unit) => {
+                unit.shown(number, settings.estimator.camera.metres_per_unit)
+            }
+            _ => number.to_string(),
+        }
+    }
+
+    /// Parses a value as it is typed, on the command line or in the panel.
     ///
     /// # Errors
     /// A sentence about how a value is written.
     pub fn parse(&self, text: &str) -> Result<Value, String> {
         let (value, right) = match &self.access {
-            Access::Single(..) => {
-                (text.parse().ok().map(Value::Single), "a number is written like 0.5, -2 or 1e-3")
+            Access::Single(_, _, unit) => {
+                // A plain number is rounded once, so that a saved picture gets back exactly what it had.
+                if let Ok(number) = text.parse() {
+                    return Ok(Value::Single(number));
+                }
+                return unit.read(text).map(|typed| match typed {
+                    Typed::Number(number) => Value::Single(number as f32),
+                    Typed::Metres(metres) => Value::Metres(metres),
+                });
             }
-            Access::Double(..) => {
-                (text.parse().ok().map(Value::Double), "a number is written like 0.5, -2 or 1e-3")
-            }
-            Access::Seconds(..) => {
-                (seconds(text).map(Value::Single), "a shutter time is in seconds, such as 0.01 or 1/100")
+            Access::Double(_, _, unit) => {
+                return unit.read(text).map(|typed| match typed {
+                    Typed::Number(number) | Typed::Metres(number) => Value::Double(number),
+                });
             }
             Access::Whole(..) | Access::WholeOrZero(..) => {
-                (text.parse().ok().map(Value::Whole), "it is a whole number, 0 or more")
+                (text.trim().parse().ok().map(Value::Whole), "it is a whole number, 0 or more")
             }
             Access::Switch(_) => (text.parse().ok().map(Value::Switch), "it is true or false"),
             Access::Vector(..) => {
@@ -345,15 +389,8 @@ pub(super) fn file(path: &Path) -> Value {
 }
 
 fn vector(text: &str) -> Option<DVec3> {
-    let numbers: Result<Vec<f64>, _> = text.split(',').map(|number| number.trim().parse()).collect();
-    numbers.ok().and_then(|numbers| <[f64; 3]>::try_from(numbers).ok()).map(DVec3::from_array)
-}
-
-fn seconds(text: &str) -> Option<f32> {
-    match text.split_once('/') {
-        Some((over, under)) => over.parse().ok().zip(under.parse().ok()).map(|(a, b): (f32, f32)| a / b),
-        None => text.parse().ok(),
-    }
+    let numbers: Option<Vec<f64>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
+    numbers.and_then(|numbers| <[f64; 3]>::try_from(numbers).ok()).map(DVec3::from_array)
 }
 
 /// A width and a height.

@@ -1,6 +1,6 @@
 //! A series of pictures with different lenses or focal distances.
 
-use super::{Changes, Settings, Value};
+use super::{Changes, Settings, Value, rounded};
 use crate::error::{Error, Result};
 use crate::scene::CameraModel;
 
@@ -11,11 +11,11 @@ const MOST: usize = 64;
 #[derive(Debug, Clone, PartialEq)]
 pub enum Sweep {
     /// The lens, by its f-number.
-    FNumbers(Vec<f64>),
-    /// The lens, by its diameter in scene units.
-    LensDiameters(Vec<f32>),
-    /// The distance of the focal plane in scene units.
-    FocalDistances(Vec<f32>),
+    FNumbers(Vec<Value>),
+    /// The lens, by its diameter.
+    LensDiameters(Vec<Value>),
+    /// The distance of the focal plane.
+    FocalDistances(Vec<Value>),
 }
 
 impl Sweep {
@@ -29,20 +29,17 @@ impl Sweep {
                 "a sweep needs a lens, which this camera has not; add --camera thin-lens".into(),
             ));
         }
-        let picture = |flag: &str, value: Value| {
+        let (flag, values) = match self {
+            Self::FNumbers(values) => ("f-number", values),
+            Self::LensDiameters(values) => ("lens-diameter", values),
+            Self::FocalDistances(values) => ("focal-distance", values),
+        };
+        let picture = |value: &Value| {
             let mut settings = settings.clone();
-            Changes::of(flag, value).apply(&mut settings)?;
+            Changes::of(flag, value.clone()).apply(&mut settings)?;
             Ok(settings)
         };
-        let single = |flag: &'static str| move |value: &f32| picture(flag, Value::Single(*value));
-        let pictures: Result<Vec<Settings>> = match self {
-            Self::FNumbers(values) => {
-                values.iter().map(|value| picture("f-number", Value::Double(*value))).collect()
-            }
-            Self::LensDiameters(values) => values.iter().map(single("lens-diameter")).collect(),
-            Self::FocalDistances(values) => values.iter().map(single("focal-distance")).collect(),
-        };
-        let pictures = pictures?;
+        let pictures = values.iter().map(picture).collect::<Result<Vec<Settings>>>()?;
         if pictures.is_empty() || pictures.len() > MOST {
             let count = pictures.len();
             return Err(Error::OutOfRange(format!("a sheet has from 1 to {MOST} pictures, not {count}")));
@@ -54,20 +51,14 @@ impl Sweep {
     pub fn labels(&self, picture: &Settings) -> [String; 2] {
         let lens = &picture.estimator.lens;
         let f_number = picture.estimator.f_number();
-        let stop = if f_number.is_finite() { format!("f/{}", digits(f_number)) } else { "pinhole".into() };
-        let diameter = format!("lens diameter {}", digits(f64::from(lens.diameter)));
-        let plane = format!("focal plane at {}", digits(f64::from(lens.focal_distance)));
+        let stop =
+            if f_number.is_finite() { format!("f/{}", rounded(f_number, 3)) } else { "pinhole".into() };
+        let diameter = format!("lens diameter {}", rounded(f64::from(lens.diameter), 3));
+        let plane = format!("focal plane at {}", rounded(f64::from(lens.focal_distance), 3));
         match self {
             Self::FNumbers(_) => [stop, diameter],
             Self::LensDiameters(_) => [diameter, stop],
             Self::FocalDistances(_) => [plane, stop],
         }
     }
-}
-
-/// A number with three digits, without trailing zeros.
-fn digits(value: f64) -> String {
-    let places = if value == 0.0 { 0.0 } else { (2.0 - value.abs().log10().floor()).clamp(0.0, 12.0) };
-    let text = format!("{value:.*}", places as usize);
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').into() } else { text }
 }

@@ -111,6 +111,7 @@ impl Panel {
                 .build(|| action = self.column_of_controls(ui, status, &mut layout));
             self.edge(ui, area, &mut layout);
         }
+        self.leave_hidden_field();
         self.divider(ui, area, &mut layout);
         if !self.hidden {
             self.optics.draw(ui, status.diagram, area, &mut layout);
@@ -147,9 +148,11 @@ impl Panel {
     /// Draws the sliders of the lens or the hole. A pinhole has none: those of the lens are greyed, so that nothing moves.
     fn main_sliders(&mut self, ui: &Ui, layout: &mut Layout) {
         if self.settings.estimator.model == CameraModel::Pinhole {
-            let mut as_lens = self.settings.clone();
-            as_lens.estimator.model = CameraModel::ThinLens;
-            ui.disabled(true, || rows::rows(ui, Part::Top, &mut as_lens, &self.initial, layout));
+            let (settings, typing) = (self.settings.clone(), self.typing.take());
+            self.settings.estimator.model = CameraModel::ThinLens;
+            ui.disabled(true, || self.rows(ui, Part::Top, layout));
+            // What is grey changes nothing, whatever is clicked there.
+            (self.settings, self.typing) = (settings, typing);
         } else {
             self.rows(ui, Part::Top, layout);
         }
@@ -303,12 +306,5 @@ impl Panel {
         if let Some(name) = chosen {
             self.open(&name);
         }
-    }
-
-    /// Draws the rows of a part of the panel.
-    fn rows(&mut self, ui: &Ui, part: Part, layout: &mut Layout) {
-        let before = (self.settings.estimator.camera, self.settings.estimator.lens);
-        rows::rows(ui, part, &mut self.settings, &self.initial, layout);
-        self.zoom_lock.follow(part, before, &mut self.settings.estimator);
     }
 }

@@ -2,90 +2,204 @@
 
 use super::sensor::sensor;
 use super::tolerance::tolerance;
-use super::widgets::{Layout, combo, named, note_item, tooltip};
+use super::widgets::{Layout, beside, combo, heading, note_item, points_at_item, tooltip};
+use crate::app::panel::Panel;
+use crate::app::typing::Typing;
 use crate::scene::PLACES;
 use crate::settings::{Access, Choice, Field, Part, Row, Setting, Settings, Slider, Widget, list};
 use glam::DVec3;
-use imgui::{Drag, SliderFlags, Ui};
+use imgui::{Drag, Key, MouseButton, SliderFlags, StyleColor, Ui};
 
-/// Draws the rows of a part of the panel. `initial` has the settings that the scene was opened with.
-pub(super) fn rows(ui: &Ui, part: Part, settings: &mut Settings, initial: &Settings, layout: &mut Layout) {
-    for setting in list::all() {
-        if let Some(row) = &setting.row
-            && row.part == part
-            && (row.shown)(settings)
+/// An arrow key moves a slider by this part of its length, or by ten times as much with Shift.
+const STEP: f64 = 0.002;
+/// The background of a field whose text was refused.
+const REFUSED: [f32; 4] = [0.50, 0.10, 0.10, 1.0];
+
+impl Panel {
+    /// Draws the rows of a part of the panel.
+    pub(super) fn rows(&mut self, ui: &Ui, part: Part, layout: &mut Layout) {
+        let before = (self.settings.estimator.camera, self.settings.estimator.lens);
+        for setting in list::all() {
+            if let Some(row) = &setting.row
+                && row.part == part
+                && (row.shown)(&self.settings)
+            {
+                self.row(ui, setting, row, layout);
+            }
+        }
+        self.zoom_lock.follow(part, before, &mut self.settings.estimator);
+    }
+
+    fn row(&mut self, ui: &Ui, setting: &'static Setting, row: &Row, layout: &mut Layout) {
+        let Row { label, help, .. } = row;
+        let settings = &mut self.settings;
+        match (&row.widget, &setting.access) {
+            (Widget::Slider(_) | Widget::Drag | Widget::Length, _) => self.number(ui, setting, row, layout),
+            (Widget::Box, Access::Switch(field)) => {
+                let mut ticked = (field.get)(settings);
+                if tick(ui, label, help, &mut ticked, layout) {
+                    (field.set)(settings, ticked);
+                }
+            }
+            (Widget::BoxOf { ticked, plain }, Access::Single(field, ..)) => {
+                let mut is = (field.get)(settings) == *ticked;
+                if tick(ui, label, help, &mut is, layout) {
+                    (field.set)(settings, if is { *ticked } else { *plain });
+                }
+            }
+            (Widget::List, Access::Sensor(field)) => sensor(ui, row, field, settings, layout),
+            (Widget::List, Access::Choice(field, choices)) => {
+                choose(ui, row, field, &choices(), settings, layout);
+            }
+            _ => {}
+        }
+    }
+
+    /// Draws a row whose value can be typed: its name and its number, and below them the control or the field.
+    fn number(&mut self, ui: &Ui, setting: &'static Setting, row: &Row, layout: &mut Layout) {
+        let heading = heading(ui, row.label, &setting.shown(&self.settings), row.help);
+        if heading.resets && setting.set(&mut self.settings, &setting.get(&self.initial)).is_ok() {
+            self.typing = None;
+        }
+        if self.typing.as_ref().is_some_and(|typing| std::ptr::eq(typing.setting, setting)) {
+            self.field(ui);
+            note_item(ui, row.label, layout);
+            return;
+        }
+        // A click with Ctrl moves the slider before the field opens. imgui's own flag misses a Ctrl that is released in the
+        // frame of the click.
+        let ctrl = ui.io().key_ctrl || [Key::LeftCtrl, Key::RightCtrl].iter().any(|key| ui.is_key_down(*key));
+        let before = ctrl.then(|| self.settings.clone());
+        ui.set_next_item_width(-1.0);
+        let id = format!("##{}", row.label);
+        let mut of_units = false;
+        match (&row.widget, &setting.access) {
+            (Widget::Slider(slider), _) => slide(ui, &id, setting, slider, &mut self.settings, &self.initial),
+            (_, Access::Tolerance(field)) => {
+                of_units = true;
+                tolerance(ui, &id, row, field, &mut self.settings, layout);
+            }
+            (_, Access::Vector(field, _)) => drag(ui, &id, field, &mut self.settings),
+            _ => {}
+        }
+        // The last item of a row with units is their list, and the row has noted and explained its slider.
+        if !of_units {
+            note_item(ui, row.label, layout);
+            tooltip(ui, row.help);
+        }
+        let clicked = ui.is_item_hovered() && ui.is_mouse_clicked(MouseButton::Left) && ctrl;
+        let twice = ui.is_item_hovered() && ui.is_mouse_double_clicked(MouseButton::Left);
+        let by_key = ui.is_item_focused()
+            && (ui.is_key_pressed_no_repeat(Key::Enter) || ui.is_key_pressed_no_repeat(Key::KeypadEnter));
+        let is_drag = matches!(row.widget, Widget::Drag);
+        if heading.types || (clicked && !of_units) || (twice && is_drag) || (by_key && !of_units) {
+            self.settings = before.unwrap_or_else(|| self.settings.clone());
+            self.typing = Some(Typing::new(setting, &self.settings));
+        } else if let Widget::Slider(slider) = &row.widget {
+            // An arrow key also moves imgui's focus, and then imgui takes no notice of the pointer. A focused slider is
+            // meant only where the pointer means no other one.
+            let focused = ui.is_item_focused() && !ui.io().want_capture_mouse;
+            if heading.hovered || points_at_item(ui) || focused {
+                self.step(ui, setting, slider);
+            }
+        }
+    }
+
+    /// Moves a slider by a small step if an arrow key is pressed.
+    fn step(&mut self, ui: &Ui, setting: &Setting, slider: &Slider) {
+        let arrows = [(Key::RightArrow, 1.0), (Key::LeftArrow, -1.0)];
+        let pressed = arrows.into_iter().find(|(key, _)| ui.is_key_pressed(*key));
+        if let Some((_, direction)) = pressed
+            && !ui.is_item_active()
+            && !ui.io().want_text_input
+            && let Some(now) = setting.number(&self.settings)
         {
-            draw(ui, setting, row, settings, initial, layout);
+            let ends = (slider.range)(&self.initial).map(f64::from);
+            let length = STEP * if ui.io().key_shift { 10.0 } else { 1.0 };
+            let least = match (&setting.access, slider.decimals) {
+                (Access::Whole(..) | Access::WholeOrZero(..), _) => 1.0,
+                (_, Some(decimals)) => 10_f64.powi(-decimals),
+                _ => 0.0,
+            };
+            let next = at(slider, ends, share(slider, ends, now) + direction * length);
+            let next = if (next - now).abs() < least { now + direction * least } else { next };
+            // A value beyond the ends was typed, and goes no further.
+            let value = rounded_to(slider, next).clamp(ends[0].min(now), ends[1].max(now));
+            setting.set_number(&mut self.settings, value);
+        }
+    }
+
+    /// Draws the field into which a value is typed. Enter takes it; Escape and a click elsewhere leave it.
+    fn field(&mut self, ui: &Ui) {
+        let Some(typing) = &mut self.typing else { return };
+        typing.drawn = true;
+        if typing.without_keyboard == 0 {
+            ui.set_keyboard_focus_here();
+        }
+        let red = typing.refused.is_some().then(|| ui.push_style_color(StyleColor::FrameBg, REFUSED));
+        ui.set_next_item_width(-1.0);
+        let field = ui.input_text("##typed", &mut typing.text);
+        let entered = field.enter_returns_true(true).auto_select_all(true).build();
+        drop(red);
+        typing.without_keyboard = if ui.is_item_active() { 1 } else { typing.without_keyboard + 1 };
+        let left = ui.is_item_deactivated() || typing.without_keyboard > 4;
+        match &typing.refused {
+            Some(reason) => beside(ui, reason, [1.0, 0.55, 0.5, 1.0]),
+            None => beside(ui, "Enter takes what you type, Escape leaves it.", [1.0; 4]),
+        }
+        let over = if entered { typing.take(&mut self.settings) } else { left };
+        if over {
+            self.typing = None;
+        }
+    }
+
+    /// Leaves a field whose row is not drawn any more.
+    pub(super) fn leave_hidden_field(&mut self) {
+        if let Some(typing) = &mut self.typing
+            && !std::mem::take(&mut typing.drawn)
+        {
+            self.typing = None;
         }
     }
 }
 
-fn draw(
-    ui: &Ui,
-    setting: &Setting,
-    row: &Row,
-    settings: &mut Settings,
-    initial: &Settings,
-    layout: &mut Layout,
-) {
-    let Row { label, help, .. } = row;
-    match (&row.widget, &setting.access) {
-        (Widget::Slider(slider), access) => named(ui, label, help, layout, |id| match access {
-            Access::Single(field, _) | Access::Seconds(field, _) => {
-                slide(ui, id, slider, field, settings, initial, |end| end, |now| now);
-            }
-            Access::Double(field, _) => {
-                slide(ui, id, slider, field, settings, initial, f64::from, |now| now as f32);
-            }
-            Access::Whole(field, _) | Access::WholeOrZero(field, ..) => {
-                slide(ui, id, slider, field, settings, initial, |end| end as u32, |now| now as f32);
-            }
-            _ => {}
-        }),
-        (Widget::Box, Access::Switch(field)) => {
-            let mut ticked = (field.get)(settings);
-            if tick(ui, label, help, &mut ticked, layout) {
-                (field.set)(settings, ticked);
-            }
-        }
-        (Widget::BoxOf { ticked, plain }, Access::Single(field, _)) => {
-            let mut is = (field.get)(settings) == *ticked;
-            if tick(ui, label, help, &mut is, layout) {
-                (field.set)(settings, if is { *ticked } else { *plain });
-            }
-        }
-        (Widget::List, Access::Choice(field, choices)) => {
-            choose(ui, row, field, &choices(), settings, layout);
-        }
-        (Widget::Drag, Access::Vector(field, _)) => {
-            named(ui, label, help, layout, |id| drag(ui, id, field, settings));
-        }
-        (Widget::List, Access::Sensor(field)) => sensor(ui, row, field, settings, layout),
-        (Widget::Length, Access::Tolerance(field)) => tolerance(ui, row, field, settings, layout),
-        _ => {}
+/// The position of a number on a slider with these ends, from 0 to 1.
+fn share(slider: &Slider, [low, high]: [f64; 2], number: f64) -> f64 {
+    let share = if slider.logarithmic {
+        (number / low).ln() / (high / low).ln()
+    } else {
+        (number - low) / (high - low)
+    };
+    if share.is_nan() { 0.0 } else { share.clamp(0.0, 1.0) }
+}
+
+/// The number at a position of a slider.
+fn at(slider: &Slider, [low, high]: [f64; 2], share: f64) -> f64 {
+    let share = share.clamp(0.0, 1.0);
+    match share {
+        // The ends come out exactly.
+        0.0 => low,
+        1.0 => high,
+        _ if slider.logarithmic => low * (high / low).powf(share),
+        _ => low + (high - low) * share,
     }
+}
+
+fn rounded_to(slider: &Slider, number: f64) -> f64 {
+    slider.decimals.map_or(number, |decimals| {
+        let power = 10_f64.powi(decimals);
+        (number * power).round() / power
+    })
 }
 
 /// Draws a slider. A value that the user does not change keeps every bit.
-#[allow(clippy::too_many_arguments, reason = "the last two arguments depend on the type")]
-fn slide<T: imgui::internal::DataTypeKind>(
-    ui: &Ui,
-    id: String,
-    slider: &Slider,
-    field: &Field<T>,
-    settings: &mut Settings,
-    initial: &Settings,
-    of: fn(f32) -> T,
-    shown: fn(T) -> f32,
-) {
-    let [low, high] = (slider.range)(initial).map(of);
-    let mut now = (field.get)(settings);
-    let mut flags = SliderFlags::ALWAYS_CLAMP;
-    flags.set(SliderFlags::LOGARITHMIC, slider.logarithmic);
-    flags.set(SliderFlags::NO_ROUND_TO_FORMAT, !slider.rounds);
-    let format = (slider.format)(shown(now));
-    if ui.slider_config(id, low, high).display_format(format).flags(flags).build(&mut now) {
-        (field.set)(settings, now);
+fn slide(ui: &Ui, id: &str, setting: &Setting, slider: &Slider, settings: &mut Settings, initial: &Settings) {
+    let ends = (slider.range)(initial).map(f64::from);
+    let mut now = share(slider, ends, setting.number(settings).unwrap_or(0.0));
+    // imgui's own field reads 1/250 as 1.
+    let flags = SliderFlags::NO_INPUT | SliderFlags::NO_ROUND_TO_FORMAT | SliderFlags::ALWAYS_CLAMP;
+    if ui.slider_config(id, 0.0, 1.0).display_format("").flags(flags).build(&mut now) {
+        setting.set_number(settings, rounded_to(slider, at(slider, ends, now)));
     }
 }
 
@@ -118,14 +232,14 @@ fn choose(
 }
 
 /// Draws three numbers that can be dragged. Values with which the camera would have no view are refused.
-fn drag(ui: &Ui, id: String, field: &Field<DVec3>, settings: &mut Settings) {
+fn drag(ui: &Ui, id: &str, field: &Field<DVec3>, settings: &mut Settings) {
     let before = settings.estimator.camera;
     let mut parts = (field.get)(settings).to_array();
     let changed = Drag::new(id)
         .range(PLACES[0], PLACES[1])
         .speed((0.002 * before.eye.distance(before.look_at)) as f32)
         .display_format("%.4g")
-        .flags(SliderFlags::NO_ROUND_TO_FORMAT | SliderFlags::ALWAYS_CLAMP)
+        .flags(SliderFlags::NO_INPUT | SliderFlags::NO_ROUND_TO_FORMAT | SliderFlags::ALWAYS_CLAMP)
         .build_array(ui, &mut parts);
     if changed {
         (field.set)(settings, DVec3::from_array(parts));

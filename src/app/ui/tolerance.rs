@@ -8,9 +8,10 @@ use imgui::{SliderFlags, Ui};
 /// The width of the list of units, in points.
 const UNIT_WIDTH: f32 = 64.0;
 
-/// Draws the row. Another unit keeps what is sharp in this picture.
+/// Draws the slider and the list. Another unit keeps what is sharp in this picture.
 pub(super) fn tolerance(
     ui: &Ui,
+    id: &str,
     row: &Row,
     field: &Field<Tolerance>,
     settings: &mut Settings,
@@ -20,15 +21,16 @@ pub(super) fn tolerance(
     let pixels = settings.tolerance_pixels() as f32;
     let mm = settings.mm_of_pixels(1.0) as f32 * pixels;
     let mut now = before;
-    ui.text(row.label);
     ui.set_next_item_width(-(UNIT_WIDTH + 4.0));
-    let (number, [low, high], format) = match &mut now {
-        Tolerance::Film(mm) => (mm, [0.001, 1.0], "%.3f"),
-        Tolerance::Pixels(pixels) => (pixels, [0.1, 30.0], "%.2f"),
+    let (number, [low, high]) = match &mut now {
+        Tolerance::Film(mm) => (mm, [0.001, 1.0]),
+        Tolerance::Pixels(pixels) => (pixels, [0.1, 30.0]),
     };
-    let flags = SliderFlags::ALWAYS_CLAMP | SliderFlags::LOGARITHMIC | SliderFlags::NO_ROUND_TO_FORMAT;
-    let id = format!("##{}", row.label);
-    ui.slider_config(id, low, high).display_format(format).flags(flags).build(number);
+    let flags = SliderFlags::ALWAYS_CLAMP
+        | SliderFlags::LOGARITHMIC
+        | SliderFlags::NO_ROUND_TO_FORMAT
+        | SliderFlags::NO_INPUT;
+    ui.slider_config(id, low, high).display_format("").flags(flags).build(number);
     note_item(ui, row.label, layout);
     tooltip(ui, row.help);
     ui.same_line_with_spacing(0.0, 4.0);

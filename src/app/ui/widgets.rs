@@ -2,8 +2,13 @@
 
 pub(super) use crate::app::panel::Layout;
 
-use imgui::{StyleColor, TreeNodeFlags, Ui};
+use imgui::{ItemHoveredFlags, MouseButton, MouseCursor, StyleColor, TreeNodeFlags, Ui};
 use std::collections::BTreeMap;
+
+/// The width of a line of a tooltip, in points.
+const TOOLTIP_WIDTH: f32 = 280.0;
+/// The space between a tooltip and what it explains, and around its text, in points.
+const TOOLTIP_MARGIN: f32 = 8.0;
 
 /// Draws a control as wide as the panel, with its name above it.
 pub(super) fn named(
@@ -20,13 +25,94 @@ pub(super) fn named(
     tooltip(ui, help);
 }
 
-pub(super) fn tooltip(ui: &Ui, help: &str) {
-    if ui.is_item_hovered() && !ui.is_item_active() {
-        ui.tooltip(|| {
-            let _wrap = ui.push_text_wrap_pos_with_pos(280.0);
-            ui.text_wrapped(help);
-        });
+/// What the user does with the name and the number of a row.
+pub(super) struct Heading {
+    /// The name was clicked twice: the value of the scene is wanted.
+    pub(super) resets: bool,
+    /// The number was clicked: another one will be typed.
+    pub(super) types: bool,
+    pub(super) hovered: bool,
+}
+
+/// Draws the name of a row, and its number at the right edge.
+pub(super) fn heading(ui: &Ui, name: &str, number: &str, help: &str) -> Heading {
+    ui.text(name);
+    tooltip(ui, &format!("{help} A double click resets it to the scene's value."));
+    let hovers_name = points_at_item(ui);
+    let resets = hovers_name && ui.is_mouse_double_clicked(MouseButton::Left);
+    if number.is_empty() {
+        return Heading { resets, types: false, hovered: hovers_name };
     }
+    let [width, _] = ui.calc_text_size(number);
+    ui.same_line_with_pos(ui.window_content_region_max()[0] - width);
+    ui.text(number);
+    tooltip(ui, "Click it to type another value.");
+    let hovers_number = points_at_item(ui);
+    if hovers_number {
+        ui.set_mouse_cursor(Some(MouseCursor::TextInput));
+    }
+    let types = hovers_number && ui.is_mouse_clicked(MouseButton::Left);
+    Heading { resets, types, hovered: hovers_name || hovers_number }
+}
+
+/// Whether the pointer is on the last item, wherever the focus of the keyboard is.
+pub(super) fn points_at_item(ui: &Ui) -> bool {
+    ui.is_window_hovered() && ui.is_mouse_hovering_rect(ui.item_rect_min(), ui.item_rect_max())
+}
+
+/// Explains the last item, once the pointer has rested on it for a moment.
+pub(super) fn tooltip(ui: &Ui, help: &str) {
+    if ui.is_item_hovered_with_flags(ItemHoveredFlags::DELAY_NORMAL)
+        && !ui.is_item_active()
+        && !help.is_empty()
+    {
+        beside(ui, help, [1.0; 4]);
+    }
+}
+
+/// Draws a text beside the window of the last item, so that it covers no control. If there is no room at either side,
+/// it stands below the item.
+pub(super) fn beside(ui: &Ui, text: &str, color: [f32; 4]) {
+    let lines = wrapped(text, |line| ui.calc_text_size(line)[0] <= TOOLTIP_WIDTH);
+    let line_height = ui.text_line_height();
+    let width =
+        lines.iter().map(|line| ui.calc_text_size(line)[0]).fold(0.0, f32::max) + 2.0 * TOOLTIP_MARGIN;
+    let height = lines.len() as f32 * line_height + 2.0 * TOOLTIP_MARGIN;
+    let ([left, _], [extent, _]) = (ui.window_pos(), ui.window_size());
+    let [display_width, display_height] = ui.io().display_size;
+    let (min, max) = (ui.item_rect_min(), ui.item_rect_max());
+    let (right, before) = (left + extent + TOOLTIP_MARGIN, left - TOOLTIP_MARGIN - width);
+    let [x, y] = if right + width <= display_width {
+        [right, min[1]]
+    } else if before >= 0.0 {
+        [before, min[1]]
+    } else {
+        [(display_width - width).clamp(0.0, min[0].max(0.0)), max[1] + TOOLTIP_MARGIN]
+    };
+    let y = y.min(display_height - height).max(0.0);
+    let list = ui.get_foreground_draw_list();
+    let corners = ([x, y], [x + width, y + height]);
+    list.add_rect(corners.0, corners.1, [0.08, 0.09, 0.11, 0.98]).filled(true).rounding(4.0).build();
+    list.add_rect(corners.0, corners.1, [0.45, 0.47, 0.50, 1.0]).rounding(4.0).build();
+    for (number, line) in lines.iter().enumerate() {
+        let y = y + TOOLTIP_MARGIN + number as f32 * line_height;
+        list.add_text([x + TOOLTIP_MARGIN, y], color, line);
+    }
+}
+
+/// A text in lines that fit.
+fn wrapped(text: &str, fits: impl Fn(&str) -> bool) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        let last = lines.last_mut().expect("there is a line");
+        let longer = if last.is_empty() { word.to_owned() } else { format!("{last} {word}") };
+        if fits(&longer) || last.is_empty() {
+            *last = longer;
+        } else {
+            lines.push(word.to_owned());
+        }
+    }
+    lines
 }
 
 /// Notes where the last item was drawn: left, top, width and height in physical pixels.

@@ -6,10 +6,11 @@ use super::super::loader::{Loader, Ready};
 use super::super::message::{Kind, Offer};
 use super::super::ui::{Action, Status};
 use super::super::{keys, telemetry};
-use super::{FRAMES_AFTER_EVENT, OpenWindow, area};
+use super::{FRAMES_AFTER_EVENT, OpenWindow, TOOLTIP_DELAY, area};
 use crate::error::{Error, Result};
 use crate::renderer::Pace;
 use crate::vulkan::AcquiredImage;
+use imgui::Key;
 use std::time::{Duration, Instant};
 use winit::event_loop::EventLoopProxy;
 
@@ -105,9 +106,15 @@ impl OpenWindow {
         if self.panel.optics.open && !self.panel.hidden {
             self.focus.draw_pin(ui, area);
         }
-        self.dragging = ui.is_any_item_active() || self.focus.is_gliding() || self.navigate.is_moving();
+        // While an arrow key is held, a slider moves: that is one change.
+        let steps = [Key::LeftArrow, Key::RightArrow].into_iter().any(|key| ui.is_key_down(key));
+        self.dragging =
+            steps || ui.is_any_item_active() || self.focus.is_gliding() || self.navigate.is_moving();
         if ui.io().want_text_input {
             self.frames_to_draw = self.frames_to_draw.max(1); // the caret blinks
+        }
+        if ui.io().want_capture_mouse && self.pointer_moved.elapsed() < TOOLTIP_DELAY.mul_f32(1.5) {
+            self.frames_to_draw = self.frames_to_draw.max(1); // a tooltip may be about to come
         }
         if action == Some(Action::CopyCommand) {
             let line = self.panel.settings.command_line("picture.png");

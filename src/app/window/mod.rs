@@ -31,6 +31,8 @@ use winit::window::{Window, WindowId};
 const DEFAULT_SIZE: [f64; 2] = [1280.0, 720.0];
 /// imgui needs one frame to notice an event and another to draw the effect.
 const FRAMES_AFTER_EVENT: u32 = 3;
+/// How long the pointer rests on a control before its tooltip comes.
+const TOOLTIP_DELAY: Duration = Duration::from_millis(500);
 /// imgui handles one press or release per frame, even when several arrive at once. This is the most frames that are
 /// drawn to catch up.
 const MAX_FRAMES_TO_DRAW: u32 = 30;
@@ -65,6 +67,7 @@ struct OpenWindow {
     has_clipboard: bool,
     window: Arc<Window>,
     last_frame: Instant,
+    pointer_moved: Instant,
     /// When the oldest event arrived whose effect no frame has shown yet.
     unshown_since: Option<Instant>,
     frames_to_draw: u32,
@@ -135,6 +138,7 @@ impl ApplicationHandler for Viewer {
                 match event {
                     WindowEvent::Resized(_) => open.graphics.refit(),
                     WindowEvent::DroppedFile(ref path) => open.panel.open(path),
+                    WindowEvent::CursorMoved { .. } => open.pointer_moved = Instant::now(),
                     WindowEvent::Occluded(occluded) => open.occluded = occluded,
                     _ => {}
                 }
@@ -275,6 +279,7 @@ impl OpenWindow {
         let has_clipboard = clipboard.is_there();
         imgui.set_clipboard_backend(clipboard);
         imgui.io_mut().config_windows_move_from_title_bar_only = true;
+        imgui.io_mut().hover_delay_normal = TOOLTIP_DELAY.as_secs_f32();
         imgui.io_mut().config_flags |= imgui::ConfigFlags::NAV_ENABLE_KEYBOARD;
         let mut platform = WinitPlatform::new(&mut imgui);
         platform.attach_window(imgui.io_mut(), &window, HiDpiMode::Default);
@@ -290,6 +295,7 @@ impl OpenWindow {
             has_clipboard,
             window,
             last_frame: Instant::now(),
+            pointer_moved: Instant::now(),
             unshown_since: None,
             frames_to_draw: FRAMES_AFTER_EVENT,
             idle: false,

@@ -2,7 +2,7 @@
 
 use super::{EVEN, LOGARITHMIC, camera, field, row};
 use crate::scene::{ANAMORPHICS, BLADES, CATS_EYES, ROTATIONS, ROUNDNESSES};
-use crate::settings::{Access, Part, Role, Row, Setting, Settings, Slider, Widget};
+use crate::settings::{Access, Part, Role, Row, Setting, Settings, Slider, Unit, Widget};
 
 fn has_iris(settings: &Settings) -> bool {
     let aperture = &settings.estimator.aperture;
@@ -31,11 +31,7 @@ pub(super) static APERTURE: &[Setting] = &[
             label: "Blades",
             help: "The number of blades of the iris. Their corners lie on the rim of the lens: six blades let in 83% of the light of a disc.",
             shown: has_iris,
-            widget: Widget::Slider(Slider {
-                range: |_| BLADES.map(|count| count as f32),
-                format: |_| "%d".into(),
-                ..EVEN
-            }),
+            widget: Widget::Slider(Slider { range: |_| BLADES.map(|count| count as f32), ..EVEN }),
         }),
     },
     Setting {
@@ -47,17 +43,13 @@ pub(super) static APERTURE: &[Setting] = &[
         default: "the scene's, or 0",
         role: Role::Estimator,
         key: camera("blade_rotation_degrees"),
-        access: Access::Single(field!(estimator.aperture.rotation_degrees), ROTATIONS),
+        access: Access::Single(field!(estimator.aperture.rotation_degrees), ROTATIONS, Unit::Degrees),
         row: Some(Row {
             part: Part::Aperture,
             label: "Blade rotation",
             help: "The angle by which the iris is turned anticlockwise, in degrees, as seen from behind the camera. At 0, the middle of an edge is at the right.",
             shown: has_iris,
-            widget: Widget::Slider(Slider {
-                range: |_| [-90.0, 90.0],
-                format: |_| "%.0f deg".into(),
-                ..EVEN
-            }),
+            widget: Widget::Slider(Slider { range: |_| [-90.0, 90.0], decimals: Some(0), ..EVEN }),
         }),
     },
     Setting {
@@ -68,13 +60,13 @@ pub(super) static APERTURE: &[Setting] = &[
         default: "the scene's, or 0",
         role: Role::Estimator,
         key: camera("roundness"),
-        access: Access::Single(field!(estimator.aperture.roundness), ROUNDNESSES),
+        access: Access::Single(field!(estimator.aperture.roundness), ROUNDNESSES, Unit::Plain),
         row: Some(Row {
             part: Part::Aperture,
             label: "Roundness",
             help: "The curvature of the blades' edges: 0 gives a polygon, 1 a disc.",
             shown: has_iris,
-            widget: Widget::Slider(EVEN),
+            widget: Widget::Slider(Slider { decimals: Some(2), ..EVEN }),
         }),
     },
     Setting {
@@ -87,13 +79,13 @@ pub(super) static APERTURE: &[Setting] = &[
         default: "the scene's, or 0",
         role: Role::Estimator,
         key: camera("cats_eye"),
-        access: Access::Single(field!(estimator.aperture.cats_eye), CATS_EYES),
+        access: Access::Single(field!(estimator.aperture.cats_eye), CATS_EYES, Unit::Plain),
         row: Some(Row {
             part: Part::Aperture,
             label: "Rim",
             help: "The distance of the front rim from the centre of the lens, as seen from a corner of the picture, in diameters.",
             shown: has_rim,
-            widget: Widget::Slider(Slider { range: |_| [0.01, 1.0], ..EVEN }),
+            widget: Widget::Slider(Slider { range: |_| [0.01, 1.0], decimals: Some(2), ..EVEN }),
         }),
     },
     Setting {
@@ -104,16 +96,12 @@ pub(super) static APERTURE: &[Setting] = &[
         default: "the scene's, or 1",
         role: Role::Estimator,
         key: camera("anamorphic"),
-        access: Access::Single(field!(estimator.aperture.anamorphic), ANAMORPHICS),
+        access: Access::Single(field!(estimator.aperture.anamorphic), ANAMORPHICS, Unit::Plain),
         row: row(
             Part::Aperture,
             "Anamorphic",
             "The height of the aperture divided by its width. Lenses for wide screens squeeze the picture, and blur into tall ovals.",
-            Widget::Slider(Slider {
-                range: |_| [0.5, 2.0],
-                format: |_| "%.2f".into(),
-                ..Slider { rounds: true, ..LOGARITHMIC }
-            }),
+            Widget::Slider(Slider { range: |_| [0.5, 2.0], decimals: Some(2), ..LOGARITHMIC }),
         ),
     },
     Setting {

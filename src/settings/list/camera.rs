@@ -2,7 +2,7 @@
 
 use super::{EVEN, LOGARITHMIC, camera, field, row};
 use crate::scene::{FOCAL_LENGTHS_MM, METRES_PER_UNIT, PLACES, PRESETS, Preset, VFOV_DEGREES};
-use crate::settings::{Access, Choice, Estimator, Field, Key, Part, Role, Setting, Slider, Widget};
+use crate::settings::{Access, Choice, Estimator, Field, Key, Part, Role, Setting, Slider, Unit, Widget};
 
 /// The position and the field of view of the camera. Known lenses come before the settings that they change.
 pub(super) static CAMERA: &[Setting] = &[
@@ -52,7 +52,7 @@ pub(super) static CAMERA: &[Setting] = &[
         default: "the scene's",
         role: Role::Estimator,
         key: camera("metres_per_unit"),
-        access: Access::Double(field!(estimator.camera.metres_per_unit), METRES_PER_UNIT),
+        access: Access::Double(field!(estimator.camera.metres_per_unit), METRES_PER_UNIT, Unit::Metres),
         row: None,
     },
     Setting {
@@ -126,23 +126,20 @@ pub(super) static CAMERA: &[Setting] = &[
                 set: |settings, degrees| settings.estimator.camera.vfov_radians = degrees.to_radians(),
             },
             VFOV_DEGREES,
+            Unit::Degrees,
         ),
         row: row(
             Part::Viewpoint,
             "Field of view",
             "The angle from the lower to the upper edge. Zooming moves the film. Under Lens you choose what stays: the f-number or the diameter.",
-            Widget::Slider(Slider {
-                range: |_| VFOV_DEGREES.map(|end| end as f32),
-                format: |_| "%.1f degrees".into(),
-                ..Slider { rounds: false, ..EVEN }
-            }),
+            Widget::Slider(Slider { range: |_| VFOV_DEGREES.map(|end| end as f32), ..EVEN }),
         ),
     },
     Setting {
         flag: "focal-length",
         letter: None,
         value_name: "MM",
-        help: "The focal length in mm, which gives the field of view in another way: the height of the sensor divided by \
+        help: "The focal length in mm, such as 85 or 85mm, which gives the field of view in another way: the height of the sensor divided by \
                2 tan(vfov / 2)",
         default: "",
         role: Role::Alias(&["vfov"]),
@@ -153,12 +150,13 @@ pub(super) static CAMERA: &[Setting] = &[
                 set: |settings, mm| settings.estimator.camera.set_focal_length_mm(mm),
             },
             FOCAL_LENGTHS_MM,
+            Unit::Millimetres,
         ),
         row: row(
             Part::Lens,
             "Focal length",
             "The focal length as photographers give it: it says how much the lens takes in with this sensor. A longer one shows less, and larger.",
-            Widget::Slider(Slider { range: |_| [2.0, 800.0], format: |_| "%.4g mm".into(), ..LOGARITHMIC }),
+            Widget::Slider(Slider { range: |_| [2.0, 800.0], ..LOGARITHMIC }),
         ),
     },
 ];

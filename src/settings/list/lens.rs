@@ -3,7 +3,7 @@
 use super::{EVEN, LOGARITHMIC, by_name, camera, field, row};
 use crate::scene::{CameraModel, DIAMETERS, F_NUMBERS, FOCAL_DISTANCES, MAX_LENGTH, MIN_LENGTH};
 use crate::settings::{
-    Access, Choice, Field, Key, Part, Role, Row, Setting, Settings, Slider, Widget, name_of, named,
+    Access, Choice, Field, Key, Part, Role, Row, Setting, Settings, Slider, Unit, Widget, name_of, named,
 };
 
 /// The camera models, as shown to the user.
@@ -80,7 +80,7 @@ pub(super) static LENS: &[Setting] = &[
         flag: "lens-diameter",
         letter: None,
         value_name: "L",
-        help: "The diameter of the lens, in scene units. A wider lens blurs more, and 0 is a pinhole",
+        help: "The diameter of the lens, in scene units or like 17mm. A wider lens blurs more, and 0 is a pinhole",
         default: "the scene's",
         role: Role::Estimator,
         key: Some(Key {
@@ -89,24 +89,20 @@ pub(super) static LENS: &[Setting] = &[
             otherwise: &[],
             rests_on: &["vfov", "metres-per-unit", "sensor"],
         }),
-        access: Access::Single(field!(estimator.lens.diameter), DIAMETERS),
+        access: Access::Single(field!(estimator.lens.diameter), DIAMETERS, Unit::Length),
         row: Some(Row {
             part: Part::Top,
             label: "Lens diameter",
             help: "The diameter of the lens, or of the pupil of an eye, in scene units. A wide lens blurs more and needs more points per pixel. 0 is a pinhole: everything is sharp.",
             shown: has_lens,
-            widget: Widget::Slider(Slider {
-                range: lens_diameters,
-                format: |_| "%.4g".into(),
-                ..Slider { rounds: false, ..EVEN }
-            }),
+            widget: Widget::Slider(Slider { range: lens_diameters, ..EVEN }),
         }),
     },
     Setting {
         flag: "f-number",
         letter: None,
         value_name: "N",
-        help: "The f-number, which gives the lens diameter in another way: the focal length divided by the diameter. The \
+        help: "The f-number, such as 2.8 or f/2.8, which gives the lens diameter in another way: the focal length divided by the diameter. The \
                focal length is the height of the sensor, 24 mm on full frame, divided by 2 tan(vfov / 2)",
         default: "",
         role: Role::Alias(&["lens-diameter"]),
@@ -117,45 +113,38 @@ pub(super) static LENS: &[Setting] = &[
                 set: |settings, f_number| settings.estimator.set_f_number(f_number),
             },
             F_NUMBERS,
+            Unit::FNumber,
         ),
         row: Some(Row {
             part: Part::Lens,
             label: "f-number",
             help: "The lens diameter as photographers give it: the focal length divided by the diameter. Each full stop has a button, and halves the light.",
             shown: has_lens,
-            widget: Widget::Slider(Slider {
-                range: |_| [0.5, 128.0],
-                format: |_| "f/%.3g".into(),
-                ..LOGARITHMIC
-            }),
+            widget: Widget::Slider(Slider { range: |_| [0.5, 128.0], ..LOGARITHMIC }),
         }),
     },
     Setting {
         flag: "focal-distance",
         letter: None,
         value_name: "L",
-        help: "The distance of the focal plane along the optical axis, in scene units",
+        help: "The distance of the focal plane along the optical axis, in scene units or like 1.2m",
         default: "the scene's",
         role: Role::Estimator,
         key: camera("focal_distance"),
-        access: Access::Single(field!(estimator.lens.focal_distance), FOCAL_DISTANCES),
+        access: Access::Single(field!(estimator.lens.focal_distance), FOCAL_DISTANCES, Unit::Length),
         row: Some(Row {
             part: Part::Top,
             label: "Focal plane distance",
             help: "The distance of the plane in which everything is sharp, in scene units.",
             shown: has_lens,
-            widget: Widget::Slider(Slider {
-                range: focal_distances,
-                format: |_| "%.4g".into(),
-                ..LOGARITHMIC
-            }),
+            widget: Widget::Slider(Slider { range: focal_distances, ..LOGARITHMIC }),
         }),
     },
     Setting {
         flag: "hole-diameter",
         letter: None,
         value_name: "L",
-        help: "The diameter of the hole with --camera hole, in scene units",
+        help: "The diameter of the hole with --camera hole, in scene units or like 0.3mm",
         default: "the scene's, or 0.3 mm",
         role: Role::Estimator,
         key: Some(Key {
@@ -164,17 +153,13 @@ pub(super) static LENS: &[Setting] = &[
             otherwise: &[],
             rests_on: &["vfov", "metres-per-unit"],
         }),
-        access: Access::Single(field!(estimator.hole.diameter), DIAMETERS),
+        access: Access::Single(field!(estimator.hole.diameter), DIAMETERS, Unit::Length),
         row: Some(Row {
             part: Part::Top,
             label: "Hole diameter",
             help: "The diameter of the hole, in scene units. On the film, a far point becomes a spot of the same diameter.",
             shown: has_hole,
-            widget: Widget::Slider(Slider {
-                range: hole_diameters,
-                format: |_| "%.4g".into(),
-                ..Slider { rounds: false, ..EVEN }
-            }),
+            widget: Widget::Slider(Slider { range: hole_diameters, ..EVEN }),
         }),
     },
     Setting {

@@ -3,14 +3,7 @@
 use super::{EVEN, LOGARITHMIC, camera, field, row, view};
 use crate::scene::{EXPOSURES, ISOS, OVERLAYS, Overlay, SHUTTERS};
 use crate::settings::setting::NONE;
-use crate::settings::{Access, Choice, Field, Part, Role, Setting, Slider, Widget, named};
-use std::borrow::Cow;
-
-/// imgui reads a typed value by the first number of this format. So the seconds come first: a fraction would be read
-/// only up to its bar.
-fn shutter_time(seconds: f32) -> Cow<'static, str> {
-    if seconds >= 0.5 { "%.3g s".into() } else { format!("%.3g s (1/{:.0})", seconds.recip()).into() }
-}
+use crate::settings::{Access, Choice, Field, Part, Role, Setting, Slider, Unit, Widget, named};
 
 /// The brightness of the picture.
 pub(super) static LIGHT: &[Setting] = &[
@@ -18,17 +11,17 @@ pub(super) static LIGHT: &[Setting] = &[
         flag: "shutter",
         letter: None,
         value_name: "SECONDS",
-        help: "How long the shutter is open, in seconds, such as 0.01 or 1/100. A longer time gives a brighter picture, \
+        help: "How long the shutter is open, in seconds, such as 0.01 or 1/100, or like 4ms. A longer time gives a brighter picture, \
                with more motion blur",
         default: "the scene's, or 1/60",
         role: Role::Estimator,
         key: camera("shutter"),
-        access: Access::Seconds(field!(estimator.shutter), SHUTTERS),
+        access: Access::Single(field!(estimator.shutter), SHUTTERS, Unit::Seconds),
         row: row(
             Part::Light,
             "Shutter",
             "How long the shutter is open, in seconds. Twice as long is twice as bright, and moving things are blurred along their paths. The aperture also blurs, but by depth and not by motion.",
-            Widget::Slider(Slider { range: |_| [1.0 / 8000.0, 4.0], format: shutter_time, ..LOGARITHMIC }),
+            Widget::Slider(Slider { range: |_| [1.0 / 8000.0, 4.0], ..LOGARITHMIC }),
         ),
     },
     Setting {
@@ -39,16 +32,12 @@ pub(super) static LIGHT: &[Setting] = &[
         default: "the scene's, or 100",
         role: Role::View,
         key: camera("iso"),
-        access: Access::Single(field!(view.iso), ISOS),
+        access: Access::Single(field!(view.iso), ISOS, Unit::Iso),
         row: row(
             Part::Light,
             "ISO",
             "The speed of the film: twice the value is twice as bright.",
-            Widget::Slider(Slider {
-                range: |_| [25.0, 25600.0],
-                format: |_| "ISO %.0f".into(),
-                ..LOGARITHMIC
-            }),
+            Widget::Slider(Slider { range: |_| [25.0, 25600.0], ..LOGARITHMIC }),
         ),
     },
     Setting {
@@ -76,12 +65,12 @@ pub(super) static LIGHT: &[Setting] = &[
         default: "the scene's, or 0",
         role: Role::View,
         key: view("exposure"),
-        access: Access::Single(field!(view.exposure_stops), EXPOSURES),
+        access: Access::Single(field!(view.exposure_stops), EXPOSURES, Unit::Stops),
         row: row(
             Part::Light,
             "Exposure",
             "The brightness in stops: each stop doubles it. This changes only how the picture is shown.",
-            Widget::Slider(Slider { range: |_| [-5.0, 5.0], format: |_| "%+.2f stops".into(), ..EVEN }),
+            Widget::Slider(Slider { range: |_| [-5.0, 5.0], decimals: Some(2), ..EVEN }),
         ),
     },
 ];

@@ -92,9 +92,7 @@ const fn row(part: Part, label: &'static str, help: &'static str, widget: Widget
 }
 
 /// A linear slider.
-const EVEN: Slider =
-    Slider { range: |_| [0.0, 1.0], format: |_| "%.2f".into(), logarithmic: false, rounds: true };
+const EVEN: Slider = Slider { range: |_| [0.0, 1.0], logarithmic: false, decimals: None };
 
 /// A logarithmic slider, for several orders of magnitude.
-const LOGARITHMIC: Slider =
-    Slider { range: |_| [0.01, 100.0], format: |_| "%.4g".into(), logarithmic: true, rounds: false };
+const LOGARITHMIC: Slider = Slider { range: |_| [0.01, 100.0], logarithmic: true, decimals: None };

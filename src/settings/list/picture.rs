@@ -3,7 +3,7 @@
 use super::{EVEN, LOGARITHMIC, by_name, field, row, top};
 use crate::scene::{MAX_BOUNCES, MAX_EXTENT};
 use crate::settings::{
-    Access, Choice, DEFAULT_JITTER, JITTERS, MAX_SAMPLES, Part, Role, Sampler, Setting, Slider, Widget,
+    Access, Choice, DEFAULT_JITTER, JITTERS, MAX_SAMPLES, Part, Role, Sampler, Setting, Slider, Unit, Widget,
     name_of, named,
 };
 
@@ -38,7 +38,6 @@ pub(super) static PICTURE: &[Setting] = &[
             "The number of rays that are averaged in each pixel: more rays give less noise. If you raise it, the picture continues with the rays that it has.",
             Widget::Slider(Slider {
                 range: |initial| [1.0, MAX_SLIDER_SAMPLES.max(initial.samples) as f32],
-                format: |_| "%d".into(),
                 ..LOGARITHMIC
             }),
         ),
@@ -56,7 +55,7 @@ pub(super) static SAMPLING: &[Setting] = &[
         default: "1",
         role: Role::Estimator,
         key: None,
-        access: Access::Single(field!(estimator.jitter), JITTERS),
+        access: Access::Single(field!(estimator.jitter), JITTERS, Unit::Pixels),
         row: row(
             Part::Sampling,
             "One centre ray per pixel",
@@ -100,16 +99,12 @@ pub(super) static SAMPLING: &[Setting] = &[
         default: "0, none stops",
         role: Role::Estimator,
         key: None,
-        access: Access::Single(field!(estimator.noise_threshold), [0.0, 1.0]),
+        access: Access::Single(field!(estimator.noise_threshold), [0.0, 1.0], Unit::Fraction),
         row: row(
             Part::Sampling,
             "Noise threshold",
             "A pixel stops once its error is below this fraction of its brightness, so that the work goes where the noise is. At 0, no pixel stops.",
-            Widget::Slider(Slider {
-                range: |_| [0.0, 0.2],
-                format: |share| if share > 0.0 { "%.3f".into() } else { "off".into() },
-                ..EVEN
-            }),
+            Widget::Slider(Slider { range: |_| [0.0, 0.2], decimals: Some(3), ..EVEN }),
         ),
     },
     Setting {
