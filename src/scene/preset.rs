@@ -32,7 +32,7 @@ enum Effect {
 }
 
 /// Every preset.
-pub const PRESETS: [Preset; 6] = [
+pub static PRESETS: [Preset; 6] = [
     Preset {
         name: "pinhole",
         label: "Pinhole",
@@ -78,8 +78,7 @@ impl Preset {
 
     /// The preset that is on the camera, if one is.
     pub fn on(camera: &Camera, model: CameraModel, lens: &Lens) -> Option<&'static Self> {
-        static KNOWN: &[Preset] = &PRESETS;
-        KNOWN.iter().find(|preset| {
+        PRESETS.iter().find(|preset| {
             let (mut same_camera, mut same_model, mut same_lens) = (*camera, model, *lens);
             preset.apply(&mut same_camera, &mut same_model, &mut same_lens);
             (same_camera, same_model, same_lens) == (*camera, model, *lens)

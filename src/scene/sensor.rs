@@ -15,7 +15,7 @@ pub struct Sensor {
 }
 
 /// A format that has a name.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub struct Format {
     /// The name on the command line and in scene files.
     pub name: &'static str,
@@ -28,7 +28,7 @@ pub struct Format {
 }
 
 /// Every format that has a name.
-pub const FORMATS: [Format; 7] = [
+pub static FORMATS: [Format; 7] = [
     format("full-frame", "Full frame", "36 x 24 mm: 35 mm film.", Sensor::FULL_FRAME),
     format("aps-c", "APS-C", "23.5 x 15.6 mm: most cameras with interchangeable lenses.", of(23.5, 15.6)),
     format("micro-four-thirds", "Micro Four Thirds", "17.3 x 13 mm.", of(17.3, 13.0)),
@@ -75,8 +75,7 @@ impl Sensor {
 
     /// The format of this size, if it has a name.
     pub fn format(&self) -> Option<&'static Format> {
-        static NAMED: &[Format] = &FORMATS;
-        NAMED.iter().find(|format| format.sensor == *self)
+        FORMATS.iter().find(|format| format.sensor == *self)
     }
 
     /// Checks that both sides are in their range.

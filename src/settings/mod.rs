@@ -278,8 +278,8 @@ impl Settings {
 
     /// The brightness of the picture relative to the scene with its own lens, shutter and film. It is proportional to
     /// the shutter time and to the speed of the film. Unless the exposure is locked, it is also proportional to the
-    /// inverse square of the f-number of the focused lens, and to the area of the aperture relative to that of a disc. A pinhole would let in no
-    /// light, so it is treated as if the exposure were locked.
+    /// inverse square of the f-number of the focused lens, and to the area of the aperture relative to that of a disc.
+    /// A pinhole would let in no light, so it is treated as if the exposure were locked.
     pub fn exposure(&self) -> f32 {
         let (estimator, scene) = (&self.estimator, &*self.estimator.scene);
         let mut light =

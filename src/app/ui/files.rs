@@ -1,7 +1,7 @@
 //! The part of the panel for opening and saving files.
 
 use super::Action;
-use super::widgets::{LONGEST, Layout, combo, from_end, named, note_item, pressed, tooltip};
+use super::widgets::{LONGEST, Layout, button, combo, from_end, named, note_item, pressed};
 use crate::app::panel::Panel;
 use crate::app::save_as::SaveAs;
 use crate::renderer::Progress;
@@ -47,24 +47,22 @@ impl Panel {
                 edit(ui, id, &mut files.picture);
             },
         );
-        let mut button = |name, asks, help| {
-            if ui.button(name) {
+        let mut ask = |name, asks, help| {
+            if button(ui, name, help, layout) {
                 action = Some(asks);
             }
-            note_item(ui, name, layout);
-            tooltip(ui, help);
         };
-        button("Save picture", Action::SavePicture, "Writes the picture as it is now (Ctrl+S).");
+        ask("Save picture", Action::SavePicture, "Writes the picture as it is now (Ctrl+S).");
         ui.same_line();
         ui.disabled(progress.samples >= self.settings.samples, || {
             let _pressed = self.save_when_done.then(|| pressed(ui));
-            button(
+            ask(
                 "Save when done",
                 Action::SaveWhenDone,
                 "Writes the picture once it has all of its points. Press again to change your mind.",
             );
         });
-        button(
+        ask(
             "Copy command line",
             Action::CopyCommand,
             "Copies the command that renders this picture to the clipboard (Ctrl+C).",
@@ -78,14 +76,11 @@ impl Panel {
                 edit(ui, id, &mut files.scene);
             },
         );
-        if ui.button("Save scene") {
+        let help =
+            "Writes a scene file with the camera, the lens and the view as they are now (Ctrl+Shift+S).";
+        if button(ui, "Save scene", help, layout) {
             action = Some(Action::SaveScene);
         }
-        note_item(ui, "Save scene", layout);
-        tooltip(
-            ui,
-            "Writes a scene file with the camera, the lens and the view as they are now (Ctrl+Shift+S).",
-        );
         if let Some(file) = wanted {
             self.open(&file);
         }

@@ -24,7 +24,7 @@ use crate::renderer::{Picked, Progress};
 use crate::scene::CameraModel;
 use crate::settings::Part;
 use imgui::{Condition, MouseCursor, StyleColor, StyleVar, Ui, WindowFlags};
-use widgets::{Folds, LONGEST, Layout, combo, from_end, note_item, pressed, section, tooltip};
+use widgets::{Folds, LONGEST, Layout, button, combo, from_end, note_item, pressed, section, tick, tooltip};
 
 /// The space around what lies over the picture, in points.
 const MARGIN: f32 = 12.0;
@@ -160,25 +160,24 @@ impl Panel {
 
     fn buttons(&mut self, ui: &Ui, status: &Status<'_>, layout: &mut Layout) -> Option<Action> {
         let mut action = None;
-        let mut button = |name, asks, help| {
-            if ui.button(name) {
+        let mut ask = |name, asks, help| {
+            if button(ui, name, help, layout) {
                 action = Some(asks);
             }
-            note_item(ui, name, layout);
-            tooltip(ui, help);
             ui.same_line();
         };
-        button(
+        ask(
             "Autofocus",
             Action::Autofocus,
             "Focuses on what is in the middle of the picture. To focus on something else, right-click it, or point at it and press F. Ctrl and the wheel move the focal plane.",
         );
-        button("Reset", Action::Reset, "Restores the settings that the scene was opened with.");
-        ui.checkbox("Optics", &mut self.optics.open);
-        note_item(ui, "Optics", layout);
-        tooltip(
+        ask("Reset", Action::Reset, "Restores the settings that the scene was opened with.");
+        tick(
             ui,
+            "Optics",
             "Draws to scale what the lens does with the light of one pixel. Click the picture to choose the pixel.",
+            &mut self.optics.open,
+            layout,
         );
         for (name, asks, help) in [
             ("Undo", Action::Undo, "Undoes the last change (Ctrl+Z)."),
@@ -230,14 +229,10 @@ impl Panel {
         });
         section(ui, "Viewpoint", false, folds, layout, |layout| {
             self.rows(ui, Part::Viewpoint, layout);
-            if ui.button("Reset camera") {
+            let help = "Restores the position of the camera that the scene was opened with (Home), and nothing else.";
+            if button(ui, "Reset camera", help, layout) {
                 action = Some(Action::ResetCamera);
             }
-            note_item(ui, "Reset camera", layout);
-            tooltip(
-                ui,
-                "Restores the position of the camera that the scene was opened with (Home), and nothing else.",
-            );
         });
         section(ui, "Light", false, folds, layout, |layout| self.rows(ui, Part::Light, layout));
         section(ui, "Sampling", false, folds, layout, |layout| self.rows(ui, Part::Sampling, layout));

@@ -2,7 +2,7 @@
 
 use super::sensor::sensor;
 use super::tolerance::tolerance;
-use super::widgets::{Layout, beside, combo, heading, note_item, points_at_item, tooltip};
+use super::widgets::{Layout, beside, combo, heading, note_item, points_at_item, tick, tooltip};
 use crate::app::panel::Panel;
 use crate::app::typing::Typing;
 use crate::scene::PLACES;
@@ -201,13 +201,6 @@ fn slide(ui: &Ui, id: &str, setting: &Setting, slider: &Slider, settings: &mut S
     if ui.slider_config(id, 0.0, 1.0).display_format("").flags(flags).build(&mut now) {
         setting.set_number(settings, rounded_to(slider, at(slider, ends, now)));
     }
-}
-
-fn tick(ui: &Ui, label: &'static str, help: &str, ticked: &mut bool, layout: &mut Layout) -> bool {
-    let changed = ui.checkbox(label, ticked);
-    note_item(ui, label, layout);
-    tooltip(ui, help);
-    changed
 }
 
 fn choose(

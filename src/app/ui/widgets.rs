@@ -121,6 +121,22 @@ pub(super) fn note_item(ui: &Ui, name: &'static str, layout: &mut Layout) {
     note(ui, name, min, [max[0] - min[0], max[1] - min[1]], layout);
 }
 
+/// Draws a button. Returns whether it is pressed.
+pub(super) fn button(ui: &Ui, label: &'static str, help: &str, layout: &mut Layout) -> bool {
+    let pressed = ui.button(label);
+    note_item(ui, label, layout);
+    tooltip(ui, help);
+    pressed
+}
+
+/// Draws a box to tick. Returns whether it changes.
+pub(super) fn tick(ui: &Ui, label: &'static str, help: &str, ticked: &mut bool, layout: &mut Layout) -> bool {
+    let changed = ui.checkbox(label, ticked);
+    note_item(ui, label, layout);
+    tooltip(ui, help);
+    changed
+}
+
 /// Notes where the current window is.
 pub(super) fn note_window(ui: &Ui, name: &'static str, layout: &mut Layout) {
     note(ui, name, ui.window_pos(), ui.window_size(), layout);
