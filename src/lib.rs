@@ -55,6 +55,7 @@
 //! # The modules
 //!
 //! - [`cli`] is the command line, [`app`] the window, [`output`] writes files, and [`bench`](mod@bench) measures.
+//! - [`diagram`] draws the optics of one pixel. The viewer shows the drawing, and the command line saves it.
 //! - [`settings`] has two halves. A change of the [`settings::Estimator`] starts the film anew, a change of the
 //!   [`scene::View`] does not.
 //! - [`scene`] holds plain values and reads them from TOML and OBJ files.
@@ -76,6 +77,7 @@
 pub mod app;
 pub mod bench;
 pub mod cli;
+pub mod diagram;
 pub mod error;
 pub mod gpu_types;
 mod input_file;

@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 use thinlens::cli::{self, Command, RenderArgs, SettingsArgs, ViewArgs};
 use thinlens::error::{Error, Result};
-use thinlens::settings::Settings;
+use thinlens::settings::{Place, Settings};
 use thinlens::{app, bench, interrupt, output, verify};
 
 fn main() -> ExitCode {
@@ -39,6 +39,17 @@ fn run(command: Command) -> Result<()> {
             settings: output::load(args.quiet, || args.settings.for_render())?,
             sweep: args.sweep(),
             columns: args.columns,
+            output: args.output,
+            device: args.device.choice(),
+            quiet: args.quiet,
+        }),
+        Command::Diagram(args) => output::draw_optics(&output::DrawingJob {
+            settings: output::load(args.quiet, || args.settings.for_render())?,
+            pixel: args.pixel.unwrap_or(Place::Centre),
+            size: args.drawing_size,
+            rays: args.rays,
+            above: args.from_above,
+            to_scale: args.to_scale,
             output: args.output,
             device: args.device.choice(),
             quiet: args.quiet,

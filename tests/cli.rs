@@ -385,3 +385,50 @@ fn verify_proves_the_device() {
     );
     assert_eq!((one.code, one.stdout.lines().count()), (0, 2), "{}{}", one.stdout, one.stderr);
 }
+
+/// Catches a drawing of another pixel or lens than was asked for, and one that is refused without saying why.
+#[test]
+fn a_drawing_of_the_optics_is_saved() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    let draw = |more: &[&str]| run(folder, &[&["diagram", "-s", "320x240"], more].concat());
+    let sentence = |more: &[&str]| {
+        let ran = draw(&[&["-o", "lens.svg"], more].concat());
+        assert_eq!(ran.code, 0, "{more:?}: {}", ran.stderr);
+        let text = std::fs::read_to_string(folder.join("lens.svg")).expect("the drawing");
+        assert!(text.contains("On the film") && text.ends_with("</svg>\n"), "{more:?}");
+        (ran.stdout, text)
+    };
+    let (plain, middle) = sentence(&[]);
+    assert!(plain.contains("silver") && plain.contains("the film"), "{plain}");
+    assert_eq!(sentence(&["--pixel", "160,120"]).1, middle, "the middle is the default");
+    for more in [
+        &["--pixel", "60,200"][..],
+        &["--lens-diameter", "0.1"],
+        &["--focal-distance", "20"],
+        &["--blades", "5"],
+        &["--tolerance", "3"],
+        &["--from-above", "--anamorphic", "2"],
+        &["--to-scale"],
+        &["--rays", "5"],
+        &["--drawing-size", "800x300"],
+    ] {
+        assert_ne!(sentence(more).1, middle, "{more:?}");
+    }
+    for (more, reason) in [
+        (&["-o", "lens.png"][..], "a drawing is a .svg; lens.png is not"),
+        (
+            &["-o", "a.svg", "--pixel", "320,0"],
+            "pixel is at 320,0, but must be within the picture's 320x240 pixels",
+        ),
+        (&["-o", "a.svg", "--rays", "1"], "rays is 1, but must be from 3 to 65"),
+        (
+            &["-o", "a.svg", "--drawing-size", "100x300"],
+            "the width of the drawing is 100, but must be from 200",
+        ),
+    ] {
+        let ran = draw(more);
+        assert!(ran.code == 2 && ran.stderr.contains(reason), "{more:?}: {}", ran.stderr);
+    }
+    assert!(!folder.join("a.svg").exists(), "what is refused leaves no file");
+}

@@ -5,9 +5,9 @@ mod common;
 use anyhow::{Result, ensure};
 use common::{Gpu, prove, small};
 use glam::DVec3;
-use thinlens::app::diagram::{Diagram, Line};
+use thinlens::diagram::{self, Diagram, Drawing, Line, Look, Point, Role, Shape};
 use thinlens::renderer::Question;
-use thinlens::scene::{CameraModel, Hole};
+use thinlens::scene::{Aperture, CameraModel, Hole};
 use thinlens::settings::Settings;
 
 const RAYS: u32 = 9;
@@ -135,4 +135,251 @@ fn light_spreads_on_the_film_over_the_circle_of_confusion() {
     settings.estimator.model = CameraModel::Pinhole;
     let diagram = drawn(&gpu, &settings, [20.5, 38.5]).expect("it is drawn");
     assert!(diagram.half_aperture == [0.0; 2] && diagram.image.blur < 1e-12, "a pinhole blurs nothing");
+}
+
+const LOOK: Look = Look { size: [1100.0, 420.0], above: false, to_scale: false, sharp: Some([8.0, 12.0]) };
+
+fn shapes(drawing: &Drawing) -> impl Iterator<Item = &Shape> {
+    drawing.panes.iter().flat_map(|pane| &pane.shapes)
+}
+
+/// The drawn lines that stand for something.
+fn lines(drawing: &Drawing, of: Role) -> Vec<&[Point]> {
+    let points = shapes(drawing).filter_map(|shape| match shape {
+        Shape::Line { points, role, .. } if *role == of => Some(&points[..]),
+        _ => None,
+    });
+    points.collect()
+}
+
+fn texts(drawing: &Drawing) -> Vec<&str> {
+    let text = shapes(drawing).filter_map(|shape| match shape {
+        Shape::Text { text, .. } => Some(text.as_str()),
+        _ => None,
+    });
+    text.collect()
+}
+
+/// The number before `unit` in the one text of the drawing that contains `start`.
+fn number(drawing: &Drawing, start: &str, unit: &str) -> f64 {
+    let text =
+        texts(drawing).into_iter().find(|text| text.contains(start)).unwrap_or_else(|| panic!("no {start}"));
+    let rest = text.split_once(start).expect("it is there").1;
+    let number = rest.split_once(unit).unwrap_or_else(|| panic!("no {unit} in {text}")).0;
+    number.trim().parse().unwrap_or_else(|_| panic!("no number in {text}"))
+}
+
+/// Where a drawn line, or its extension, is at a horizontal place.
+fn height([from, to]: [Point; 2], x: f32) -> f32 {
+    from[1] + (to[1] - from[1]) * (x - from[0]) / (to[0] - from[0])
+}
+
+/// Catches a stretch that is said and not reached, most of all off the axis; light that is not drawn through one
+/// place, which is where the drawing says that it meets; and two sides of the lens that do not fit together.
+#[test]
+fn what_is_drawn_is_magnified_as_the_drawing_says() {
+    let gpu = Gpu::new();
+    let mut settings = small("version-4");
+    for (position, diameter, above) in [
+        ([32.5, 24.5], 0.34, false),
+        ([20.5, 38.5], 0.34, false),
+        ([12.5, 44.5], 0.02, false),
+        ([12.5, 40.5], 1.0, true),
+    ] {
+        settings.estimator.lens.diameter = diameter;
+        let diagram = drawn(&gpu, &settings, position).expect("it is drawn");
+        let drawing = diagram::draw(&diagram, &Look { above, ..LOOK });
+        let (depth, _) = diagram.focus.expect("a lens");
+        let focal_plane = lines(&drawing, Role::Focus)[0][0][0];
+        let film = lines(&drawing, Role::Film)[0][0][0];
+        let glass = lines(&drawing, Role::Glass)[0];
+        let of_glass = |axis: usize| glass.iter().map(move |point| point[axis]);
+        let extent = |axis| of_glass(axis).fold(f32::MIN, f32::max) - of_glass(axis).fold(f32::MAX, f32::min);
+        let lens = glass[0][0];
+        let in_front = f64::from(focal_plane - lens) / depth;
+        let behind = f64::from(lens - film) / diagram.image.film_distance;
+        let [half_width, half_height] = diagram.half_aperture;
+        let fan = f64::from(extent(1)) / (2.0 * if above { half_width } else { half_height });
+        for (name, reached) in
+            [("depths behind the lens", behind / in_front), ("heights from the centre ray", fan / in_front)]
+        {
+            let said = number(&drawing, name, "times");
+            assert!((reached / said - 1.0).abs() < 0.06, "{position:?}: {name}: {said}, but {reached}");
+        }
+        // A thin cone is what the stretch is for.
+        assert!(extent(1) > 120.0, "{position:?}: the lens is {} high", extent(1));
+
+        let crossing = diagram.image.crossing.expect("light meets") / diagram.image.film_distance;
+        let meets = lens - (lens - film) * crossing as f32;
+        let light: Vec<[Point; 2]> =
+            lines(&drawing, Role::Light).into_iter().map(|points| [points[0], points[1]]).collect();
+        let (arriving, leaving): (Vec<_>, Vec<_>) =
+            light.into_iter().partition(|line| line.iter().all(|point| point[0] >= lens - 0.01));
+        assert!(arriving.len() == RAYS as usize && leaving.len() == RAYS as usize, "each ray on both sides");
+        let heights: Vec<f32> = leaving.iter().map(|line| height(*line, meets)).collect();
+        for (ray, at) in leaving.iter().zip(&heights) {
+            assert!((at - heights[0]).abs() < 0.05, "light passes {} beside where it meets", at - heights[0]);
+            let goes_on = arriving.iter().any(|from| (from[1][1] - ray[0][1]).abs() < 0.01);
+            assert!(goes_on, "a ray begins at the lens, at {}", ray[0][1]);
+        }
+
+        let drawing = diagram::draw(&diagram, &Look { above, to_scale: true, ..LOOK });
+        let scale = drawing.scale;
+        assert_eq!([scale.behind, scale.fan, scale.rise], [scale.in_front; 3]);
+        assert!(texts(&drawing).contains(&"to scale"), "it says so");
+    }
+}
+
+/// Catches a picture of the film with another size than it says, another shape than the aperture's, or turned: a
+/// lens point, by the device, sees the point beside the pixel just where the picture has the light of this lens point.
+#[test]
+fn the_film_shows_the_shape_of_the_blur() {
+    let gpu = Gpu::new();
+    let mut settings = small("version-4");
+    settings.estimator.aperture.blades = 3;
+    settings.estimator.aperture.rotation_degrees = 30.0;
+    let k = settings.estimator.camera.view_distance_pixels(settings.estimator.size[1]);
+    let mut directions = [0; 2];
+    for focal_distance in [5.0, 18.0] {
+        settings.estimator.lens.focal_distance = focal_distance;
+        let diagram = drawn(&gpu, &settings, [32.5, 24.5]).expect("it is drawn");
+        let (image, hit) = (&diagram.image, diagram.hit.expect("a surface"));
+        assert!((2.0 * image.blur_radius.abs() / image.blur_pixels - 1.0).abs() < 1e-6);
+        // Seen from the top of the lens, where the corner of the iris is, the point is so much higher in the picture.
+        let top = diagram.half_aperture[1];
+        let seen_from_top = (hit.y - top) / hit.z + top / f64::from(focal_distance);
+        let higher = (seen_from_top - hit.y / hit.z) * k;
+        let corners = &image.openings[0].corners;
+        let corner = corners.iter().max_by(|a, b| a[1].total_cmp(&b[1])).expect("corners");
+        assert!((corner[1] - 1.0).abs() < 1e-6 && corner[0].abs() < 1e-6, "the corner is at {corner:?}");
+        assert!((corner[1] * image.blur_radius / higher - 1.0).abs() < 1e-4, "it is turned");
+        directions[usize::from(higher > 0.0)] += 1;
+
+        // A ray of the device from there, of the pixel where the film has this light, meets the point.
+        let seen = drawn(&gpu, &settings, [32.5, (24.5 - higher) as f32]).expect("it is drawn");
+        let meets = at(seen.fan_up[RAYS as usize - 1], hit.z);
+        assert!(meets.distance(hit) < 1e-4 * hit.z, "the device sees {meets}, not {hit}");
+
+        let drawing = diagram::draw(&diagram, &LOOK);
+        let said = number(&drawing, "circle of confusion:", "pixels");
+        assert!((image.blur_pixels / said - 1.0).abs() < 0.06, "{said} pixels, but {}", image.blur_pixels);
+        let grid = lines(&drawing, Role::Grid);
+        let upright: Vec<f32> =
+            grid.iter().filter(|line| line[0][0] == line[1][0]).map(|line| line[0][0]).collect();
+        let pixel = upright[1] - upright[0];
+        let outline =
+            lines(&drawing, Role::Blur).into_iter().max_by_key(|line| line.len()).expect("an outline");
+        let (low, high) =
+            outline.iter().fold((f32::MAX, f32::MIN), |(low, high), p| (low.min(p[1]), high.max(p[1])));
+        // A triangle in a circle is three quarters as high as the circle.
+        let shown = f64::from((high - low) / pixel);
+        assert!((shown / (0.75 * image.blur_pixels) - 1.0).abs() < 0.01, "{shown} squares high");
+    }
+    assert_eq!(directions, [1, 1], "the blur is upside down in front of the focal plane");
+}
+
+/// Catches the outline of another aperture than the renderer's: its area is the one that the exposure is computed from,
+/// and the oracle's points lie within and come near every part of its rim.
+#[test]
+fn outlines_are_those_of_the_apertures() {
+    let plain = Aperture::default();
+    let apertures = [
+        plain.clone(),
+        Aperture { anamorphic: 2.0, ..plain.clone() },
+        Aperture { blades: 5, rotation_degrees: 20.0, ..plain.clone() },
+        Aperture { blades: 6, roundness: 0.5, ..plain.clone() },
+        Aperture { cats_eye: 0.6, ..plain.clone() },
+    ];
+    for (aperture, film) in apertures.iter().flat_map(|of| [(of, [0.0; 2]), (of, [0.6, -0.5])]) {
+        let openings = aperture.openings(CameraModel::ThinLens, film);
+        let corners = &openings[0].corners;
+        let next = |number: usize| corners[(number + 1) % corners.len()];
+        // Positive on the left of an edge of the polygon, which goes around anticlockwise.
+        let inside = |number: usize, [x, y]: [f64; 2]| {
+            let ([ax, ay], [bx, by]) = (corners[number], next(number));
+            ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / (bx - ax).hypot(by - ay)
+        };
+        let area: f64 = (0..corners.len())
+            .map(|number| 0.5 * (corners[number][0] * next(number)[1] - corners[number][1] * next(number)[0]))
+            .sum();
+        let mut nearest = vec![f64::MAX; corners.len()];
+        let mut share = 0.0;
+        let steps = 200_u32;
+        for (x, y) in (0..steps).flat_map(|x| (0..steps).map(move |y| (x, y))) {
+            let xi = [x, y].map(|step| (f64::from(step) + 0.5) / f64::from(steps));
+            let (point, light) =
+                thinlens::reference::aperture::point(aperture, CameraModel::ThinLens, film, xi);
+            share += light / f64::from(steps * steps);
+            for (number, nearest) in nearest.iter_mut().enumerate() {
+                let depth = inside(number, point);
+                // The rim between two corners is round, and the polygon is a little smaller.
+                assert!(depth > -2e-3, "{aperture:?} at {film:?}: {point:?} is outside");
+                let [cx, cy] = corners[number];
+                *nearest = nearest.min((point[0] - cx).hypot(point[1] - cy));
+            }
+        }
+        let worst = nearest.into_iter().fold(0.0, f64::max);
+        assert!(worst < 0.05, "{aperture:?} at {film:?}: no light within {worst} of a part of the rim");
+        let expected = aperture.relative_area() * share * std::f64::consts::PI;
+        assert!((area / expected - 1.0).abs() < 3e-3, "{aperture:?} at {film:?}: {area}, not {expected}");
+    }
+}
+
+/// Catches a sentence that says the wrong side, or blur where it is sharp; and a drawing without its numbers.
+#[test]
+fn a_sentence_says_what_happens() {
+    let gpu = Gpu::new();
+    let settings = small("version-4");
+    let said = |change: &dyn Fn(&mut Settings), position: [f32; 2]| {
+        let mut changed = settings.clone();
+        change(&mut changed);
+        let diagram = drawn(&gpu, &changed, position).expect("it is drawn");
+        (diagram::sentence(&diagram), diagram)
+    };
+    let (near, diagram) = said(&|settings| settings.estimator.lens.focal_distance = 30.0, [20.5, 38.5]);
+    assert!(near.contains("behind the film") && near.contains("would only meet"), "{near}");
+    let off = (diagram.image.crossing.expect("light meets") - diagram.image.film_distance) * 50.0;
+    assert!(near.contains(&format!("meet {off:.1} mm behind")), "{near}: it is {off} mm");
+    let (far, _) = said(&|settings| settings.estimator.lens.focal_distance = 3.0, [20.5, 38.5]);
+    assert!(far.contains("in front of the film"), "{far}");
+    let depth = diagram.hit.expect("a surface").z as f32;
+    let (sharp, _) = said(&|settings| settings.estimator.lens.focal_distance = depth, [20.5, 38.5]);
+    assert!(sharp.contains("it is sharp there") && !sharp.contains("in front"), "{sharp}");
+    let (pinhole, _) = said(&|settings| settings.estimator.model = CameraModel::Pinhole, [20.5, 38.5]);
+    assert!(pinhole.contains("sharp at every depth"), "{pinhole}");
+    let (hole, _) = said(&|settings| settings.estimator.model = CameraModel::Hole, [20.5, 10.5]);
+    assert!(hole.contains("straight through the hole"), "{hole}");
+    let (background, diagram) = said(&|_| (), [32.5, 0.5]);
+    assert!(background.contains("background") && diagram.hit.is_none(), "{background}");
+}
+
+/// Catches an SVG that is not XML, whose parts are not those of the drawing, or that has a number that is none.
+#[test]
+fn a_saved_drawing_has_every_part() {
+    let gpu = Gpu::new();
+    let mut settings = small("version-4");
+    settings.estimator.aperture.blades = 6;
+    let models = [CameraModel::ThinLens, CameraModel::Pinhole, CameraModel::Hole];
+    for (model, size) in models.into_iter().flat_map(|model| [(model, [1100.0, 420.0]), (model, [1.0, 1.0])])
+    {
+        settings.estimator.model = model;
+        let mut diagram = drawn(&gpu, &settings, [20.5, 38.5]).expect("it is drawn");
+        diagram.material = "<silver> & \"gold\"\u{1}".into();
+        let drawing = diagram::draw(&diagram, &Look { size, ..LOOK });
+        let text = diagram::svg(&drawing);
+        let document = roxmltree::Document::parse(&text).unwrap_or_else(|error| panic!("{error}: {text}"));
+        let count = |names: &[&str]| {
+            document.descendants().filter(|node| names.contains(&node.tag_name().name())).count()
+        };
+        assert_eq!(count(&["svg"]), 1 + drawing.panes.len());
+        // One rectangle is the background.
+        assert_eq!(count(&["polyline", "polygon", "circle", "text"]), shapes(&drawing).count());
+        let written: Vec<String> = document
+            .descendants()
+            .filter(|node| node.has_tag_name(("http://www.w3.org/2000/svg", "text")))
+            .map(|node| node.text().unwrap_or_default().replace('\u{fffd}', "\u{1}"))
+            .collect();
+        assert_eq!(written, texts(&drawing));
+        assert!(!text.contains("NaN") && !text.contains("inf,") && !text.contains("inf\""), "{text}");
+    }
 }

@@ -6,11 +6,15 @@ use std::path::Path;
 use thinlens::interface;
 
 /// A module and what it may use of the crate, besides `error`.
-const ARROWS: [(&str, &[&str]); 17] = [
+const ARROWS: [(&str, &[&str]); 18] = [
     ("cli", &["settings", "scene"]),
-    ("app", &["renderer", "output", "settings", "scene", "vulkan", "pending_file"]),
+    ("app", &["diagram", "renderer", "output", "settings", "scene", "vulkan", "pending_file"]),
     ("bench", &["renderer", "output", "settings", "vulkan", "pending_file"]),
-    ("output", &["renderer", "settings", "scene", "vulkan", "pending_file", "input_file", "interrupt"]),
+    (
+        "output",
+        &["diagram", "renderer", "settings", "scene", "vulkan", "pending_file", "input_file", "interrupt"],
+    ),
+    ("diagram", &["renderer", "settings", "scene"]),
     ("renderer", &["passes", "gpu_types", "interface", "settings", "scene", "vulkan"]),
     ("passes", &["vulkan", "gpu_types", "interface"]),
     ("gpu_types", &["scene", "settings", "interface"]),

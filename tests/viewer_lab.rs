@@ -349,6 +349,40 @@ fn the_optics_are_those_of_the_pixel_that_was_clicked() {
     viewer.close();
 }
 
+/// Catches a drawing in the viewer that is not the one that the command line saves.
+#[test]
+fn the_drawing_in_the_viewer_is_the_saved_one() {
+    let viewer = Viewer::start(SIZE, &QUICK);
+    viewer.wait_until_done();
+    viewer.click("Optics", |viewer| viewer.controls.borrow().contains_key("Save drawing"));
+    let read = |name: &str| std::fs::read_to_string(viewer.folder.join(name));
+    let saved = |above: &str, file: &str, more: &[&str]| {
+        viewer.click("Save drawing", |_| read(file).is_ok());
+        viewer.wait_for("saving", |viewer| viewer.message.borrow().contains(file));
+        let text = read(file).expect("it is saved");
+        let size = text.split("viewBox=\"0 0 ").nth(1).and_then(|rest| rest.split('"').next());
+        let drawing_size = size.expect("a size").replace(' ', "x");
+        let picture_size = format!("{}x{}", SIZE[0], SIZE[1]);
+        let options =
+            ["diagram", "-q", "-o", "same.svg", "-s", &picture_size, "--drawing-size", &drawing_size];
+        let ran = run(&viewer.folder, &[&options[..], more].concat());
+        assert_eq!(ran.code, 0, "{}", ran.stderr);
+        assert!(
+            read("same.svg").expect("a drawing") == text,
+            "{above} differs from what the command line draws"
+        );
+    };
+    saved("the side view", "lens.svg", &[]);
+    viewer.click("To scale", |_| true);
+    viewer.rest();
+    saved("the view to scale", "lens-2.svg", &["--to-scale"]);
+    viewer.click("Drawing", |viewer| viewer.controls.borrow().contains_key("From above"));
+    viewer.click_once("From above");
+    viewer.rest();
+    saved("the view from above", "lens-3.svg", &["--to-scale", "--from-above"]);
+    viewer.close();
+}
+
 /// Catches a pause that goes on, that shows nothing after a change, or that cannot be ended; and a list of keys
 /// that does not open and close.
 #[test]

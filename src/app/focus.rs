@@ -2,9 +2,9 @@
 //! to focus on. Also moves the focal plane to what was chosen.
 
 use super::area::Area;
-use super::diagram::Diagram;
 use super::keys::Modifiers;
 use super::telemetry;
+use crate::diagram::Diagram;
 use crate::renderer::{Picked, Question};
 use crate::scene::{Lens, MAX_LENGTH, MIN_LENGTH};
 use crate::settings::Estimator;

@@ -2,7 +2,6 @@
 
 mod area;
 mod clipboard;
-pub mod diagram;
 mod display;
 mod focus;
 mod graphics;

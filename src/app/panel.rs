@@ -65,16 +65,28 @@ pub(super) struct Panel {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Optics {
     pub(super) open: bool,
-    /// The number of rays in each fan, and of samples in the front view.
+    /// The number of rays in each fan, and of samples in the view from behind.
     pub(super) rays: u32,
-    /// Vertical magnification of the side and top view, for lenses that are too narrow to see.
-    pub(super) stretch: f32,
+    pub(super) shown: Shown,
+    /// Whether the section has the same scale everywhere.
+    pub(super) to_scale: bool,
     pub(super) placed: Placed,
+}
+
+/// Which drawing of the optics is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Shown {
+    /// The section from film to object, from the right.
+    Side,
+    /// The section from film to object, from above.
+    Above,
+    /// Four drawings to scale, with the letters of the book.
+    Book,
 }
 
 impl Default for Optics {
     fn default() -> Self {
-        Self { open: false, rays: 9, stretch: 1.0, placed: Placed::default() }
+        Self { open: false, rays: 9, shown: Shown::Side, to_scale: false, placed: Placed::default() }
     }
 }
 

@@ -65,7 +65,7 @@ pub(super) fn typed(path: &Path) -> PathBuf {
 }
 
 /// This name, or this name with a number, such that no file has it yet.
-fn unused_name(name: &str) -> String {
+pub(super) fn unused_name(name: &str) -> String {
     let path = Path::new(name);
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     // A name that ends with a number continues from there.

@@ -47,6 +47,9 @@ pub enum Command {
     /// Render a scene with several f-numbers, lens diameters or focal distances, and save the pictures side by
     /// side in one PNG file
     Sweep(SweepArgs),
+    /// Draw what the lens does with the light of one pixel: film, lens, focal plane and object with the rays between
+    /// them, and the circle of confusion. Saves an SVG file
+    Diagram(DiagramArgs),
     /// Save a scene as a .toml file, with the camera, lens and view that the options choose
     Save(SaveArgs),
     /// Check a device: render small pictures on it, compare every sample with the same computation in f64 on the
@@ -141,9 +144,46 @@ pub struct SweepArgs {
     pub quiet: bool,
 }
 
+/// `thinlens diagram`.
+#[derive(Debug, Args)]
+#[command(
+    mut_arg("size", |size| size.help("The size in pixels of the picture that the pixel is in [default: the scene's]")),
+    mut_args(settings::without_sampling)
+)]
+pub struct DiagramArgs {
+    /// What the camera and the scene are. How the picture is sampled does not matter.
+    #[command(flatten)]
+    pub settings: SettingsArgs,
+    /// The pixel whose optics are drawn, counted from the upper left corner of the picture [default: the middle]
+    #[arg(long, value_name = "X,Y", value_parser = parse_place)]
+    pub pixel: Option<Place>,
+    /// Show the optics from above, and not from the side
+    #[arg(long)]
+    pub from_above: bool,
+    /// Give depths and heights the same scale everywhere. Otherwise the side of the film and the heights are
+    /// magnified, and the drawing says how much
+    #[arg(long)]
+    pub to_scale: bool,
+    /// The number of rays through the lens
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 9)]
+    pub rays: u32,
+    /// The size of the drawing
+    #[arg(long, value_name = "WxH", value_parser = parse_size, default_value = "1100x420")]
+    pub drawing_size: [u32; 2],
+    /// The file to save the drawing to
+    #[arg(short, long, value_name = "OUT.svg")]
+    pub output: PathBuf,
+    /// The device that traces the rays.
+    #[command(flatten)]
+    pub device: DeviceArgs,
+    /// Print only warnings and errors
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
 /// `thinlens save`.
 #[derive(Debug, Args)]
-#[command(mut_args(settings::for_saving))]
+#[command(mut_args(settings::without_sampling))]
 pub struct SaveArgs {
     /// What to save. How it is sampled is not part of a scene.
     #[command(flatten)]
@@ -206,7 +246,7 @@ pub fn parse() -> Cli {
         let is_file = |word: &OsString| {
             let name = Path::new(word).extension().and_then(|extension| extension.to_str());
             let dash = word.as_encoded_bytes().starts_with(b"-");
-            dash && name.is_some_and(|name| ["png", "exr", "toml", "obj", "json"].contains(&name))
+            dash && name.is_some_and(|name| ["png", "exr", "toml", "obj", "json", "svg"].contains(&name))
         };
         let file = std::env::args_os().skip(1).find(is_file).filter(|_| error.use_stderr());
         let _ = error.print();

@@ -94,8 +94,8 @@ impl SettingsArgs {
     }
 }
 
-/// Hides the options of sampling from a command that saves scenes, because they are not part of a scene.
-pub(super) fn for_saving(option: Arg) -> Arg {
+/// Hides the options of sampling from a command that renders no picture.
+pub(super) fn without_sampling(option: Arg) -> Arg {
     hide(option, |setting| setting.is_of_sampling())
 }
 

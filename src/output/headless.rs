@@ -72,20 +72,24 @@ pub fn render_instead(settings: Settings, device: DeviceChoice, why: &str) -> Re
     say(&format!("next, try: {program} render {scene} --lens-diameter 0 -o pinhole.png"))
 }
 
-/// The settings, with the focal plane at the depth of what lies at a place of the picture.
-fn focus(renderer: &mut Renderer, settings: &Settings, place: Place) -> Result<Settings> {
-    let size = settings.estimator.size.map(|extent| extent as f32);
-    let position = match place {
-        Place::Centre => size.map(|extent| 0.5 * extent),
+/// Where a place of the picture is, in pixels from the upper left corner. `what` is what is there.
+pub(super) fn position(what: &str, settings: &Settings, place: Place) -> Result<[f32; 2]> {
+    let [width, height] = settings.estimator.size.map(|extent| extent as f32);
+    let [x, y] = match place {
+        Place::Centre => [0.5 * width, 0.5 * height],
         Place::At(position) => position,
     };
-    let [x, y] = position;
-    if !(0.0..size[0]).contains(&x) || !(0.0..size[1]).contains(&y) {
-        let [width, height] = size;
+    if !(0.0..width).contains(&x) || !(0.0..height).contains(&y) {
         return Err(Error::OutOfRange(format!(
-            "autofocus is at {x},{y}, but must be within the picture's {width}x{height} pixels"
+            "{what} is at {x},{y}, but must be within the picture's {width}x{height} pixels"
         )));
     }
+    Ok([x, y])
+}
+
+/// The settings, with the focal plane at the depth of what lies at a place of the picture.
+fn focus(renderer: &mut Renderer, settings: &Settings, place: Place) -> Result<Settings> {
+    let position @ [x, y] = position("autofocus", settings, place)?;
     let Some(surface) = renderer.pick(Question::at(position))?.and_then(|picked| picked.surface) else {
         return Err(Error::NothingToFocusOn { x, y });
     };

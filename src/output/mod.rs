@@ -1,5 +1,6 @@
 //! Pictures to files: the headless renderer.
 
+mod drawing;
 mod file;
 mod format;
 mod headless;
@@ -10,6 +11,7 @@ mod sheet;
 mod stats;
 mod sweep;
 
+pub use drawing::{DrawingJob, draw_optics, save_drawing};
 pub use file::{save, save_scene, write_exr, write_picture, write_png};
 pub use format::PictureFormat;
 pub use headless::{Job, render, render_instead};

@@ -2,6 +2,7 @@
 
 mod aperture;
 mod compare;
+mod drawing;
 mod files;
 mod lens;
 mod message;
@@ -16,10 +17,10 @@ mod tolerance;
 mod widgets;
 
 use super::area::Area;
-use super::diagram::Diagram;
 use super::message::Offer;
 use super::panel::{Panel, builtin};
 use super::telemetry;
+use crate::diagram::{Diagram, sharp_depths};
 use crate::renderer::{Picked, Progress};
 use crate::scene::CameraModel;
 use crate::settings::Part;
@@ -114,7 +115,12 @@ impl Panel {
         self.leave_hidden_field();
         self.divider(ui, area, &mut layout);
         if !self.hidden {
-            self.optics.draw(ui, status.diagram, area, &mut layout);
+            let sharp = sharp_depths(&self.settings);
+            match self.optics.draw(ui, status.diagram, sharp, area, &mut layout) {
+                Some(Ok(file)) => self.messages.say(format!("saved {}", file.display())),
+                Some(Err(error)) => self.messages.fail(error.to_string()),
+                None => {}
+            }
             let optics = self.optics.open.then_some(&self.optics.placed);
             overlay::legend(ui, &self.settings, area, optics);
         }
@@ -175,7 +181,7 @@ impl Panel {
         tick(
             ui,
             "Optics",
-            "Draws to scale what the lens does with the light of one pixel. Click the picture to choose the pixel.",
+            "Draws what the lens does with the light of one pixel. Click the picture to choose the pixel.",
             &mut self.optics.open,
             layout,
         );

@@ -1,15 +1,20 @@
-//! The window that draws the optics of one pixel, to scale.
+//! The window that draws the optics of one pixel.
 
 use super::MARGIN;
+use super::drawing::paint;
 use super::numbers::length;
 use super::paper::{Color, FAINT, FRAME, LETTER, Paper, View};
 use super::widgets::{Layout, note_item, note_window, tooltip};
 use crate::app::area::Area;
-use crate::app::diagram::{Diagram, Line};
-use crate::app::panel::Optics;
+use crate::app::panel::{Optics, Shown};
+use crate::app::save_as::{absolute, unused_name};
+use crate::diagram::{self, Diagram, Line, Look};
+use crate::error::Result;
+use crate::output;
 use glam::DVec3;
-use imgui::{Condition, SliderFlags, StyleColor, Ui, WindowFlags};
+use imgui::{Condition, StyleColor, Ui, WindowFlags};
 use std::f64::consts::TAU;
+use std::path::{Path, PathBuf};
 
 const GLASS: Color = [0.45, 0.75, 1.0, 1.0];
 const FOCUS: Color = [1.0, 0.66, 0.15, 1.0];
@@ -23,15 +28,37 @@ const CENTRE: Color = [1.0, 1.0, 1.0, 0.95];
 const GAP: f32 = 6.0;
 /// The rim of the lens is drawn as a polygon with this many sides.
 const RIM_SIDES: u32 = 96;
+/// The name of a saved drawing. If there is such a file already, the name gets a number.
+const FILE: &str = "lens.svg";
 /// The smallest and the largest number of rays.
 const RAYS: [u32; 2] = [3, 65];
+/// The drawings, each with its name and what it shows.
+const DRAWINGS: [(Shown, &str, &str); 3] = [
+    (Shown::Side, "From the side", "Film, lens, focal plane and object from the right."),
+    (Shown::Above, "From above", "Film, lens, focal plane and object from above."),
+    (
+        Shown::Book,
+        "Letters of the book",
+        "Four views to scale, with the letters of Suffern's book: a centre ray goes from the lens through q on the view \
+         plane to p on the focal plane, and primary rays go from points of the lens through p. On the film, p' is where \
+         the centre ray ends.",
+    ),
+];
 
 impl Optics {
-    /// Draws the window, if it is open.
-    pub(super) fn draw(&mut self, ui: &Ui, diagram: Option<&Diagram>, area: &Area, layout: &mut Layout) {
+    /// Draws the window, if it is open. Returns the file that the drawing was saved to.
+    pub(super) fn draw(
+        &mut self,
+        ui: &Ui,
+        diagram: Option<&Diagram>,
+        sharp: Option<[f64; 2]>,
+        area: &Area,
+        layout: &mut Layout,
+    ) -> Option<Result<PathBuf>> {
         if !self.open {
-            return;
+            return None;
         }
+        let mut saved = None;
         let ([left, _], [_, bottom], [width, height]) = (area.min(), area.max(), area.size());
         let size = [(width - 2.0 * MARGIN).clamp(200.0, 1100.0), (0.46 * height).max(200.0)];
         let (mut open, mut placed) = (true, self.placed);
@@ -56,19 +83,38 @@ impl Optics {
                 background(ui, if diagram.is_some() { papers } else { [papers[0]; 2] });
                 self.controls(ui, layout);
                 match diagram {
-                    Some(diagram) => {
+                    Some(diagram) if self.shown == Shown::Book => {
                         ui.same_line();
                         ui.text(legend(diagram));
-                        self.views(ui, diagram);
+                        views(ui, diagram);
+                    }
+                    Some(diagram) => {
+                        ui.same_line();
+                        let saves = ui.button("Save##drawing");
+                        note_item(ui, "Save drawing", layout);
+                        tooltip(ui, "Saves the drawing as an SVG file in the current folder.");
+                        let look = Look {
+                            size: ui.content_region_avail().map(f32::floor),
+                            above: self.shown == Shown::Above,
+                            to_scale: self.to_scale,
+                            sharp,
+                        };
+                        let drawing = diagram::draw(diagram, &look);
+                        paint(ui, &drawing);
+                        if saves {
+                            let file = absolute(Path::new(&unused_name(FILE)));
+                            saved = Some(output::save_drawing(&drawing, &file).map(|()| file));
+                        }
                     }
                     None => ui.text_disabled("waiting for the device ..."),
                 }
             });
         (self.open, self.placed) = (open, placed);
+        saved
     }
 
     fn controls(&mut self, ui: &Ui, layout: &mut Layout) {
-        ui.set_next_item_width(110.0);
+        ui.set_next_item_width(80.0);
         ui.slider_config("##rays", RAYS[0], RAYS[1]).display_format("%d rays").build(&mut self.rays);
         note_item(ui, "Rays", layout);
         tooltip(
@@ -76,95 +122,111 @@ impl Optics {
             "The number of rays that are drawn through the lens. Click the picture to choose another pixel.",
         );
         ui.same_line();
-        ui.set_next_item_width(130.0);
-        ui.slider_config("##stretch", 1.0, 50.0)
-            .display_format(if self.stretch > 1.0 { "%.1fx as high" } else { "to scale" })
-            .flags(SliderFlags::LOGARITHMIC | SliderFlags::ALWAYS_CLAMP | SliderFlags::NO_ROUND_TO_FORMAT)
-            .build(&mut self.stretch);
-        note_item(ui, "Stretch", layout);
-        tooltip(
-            ui,
-            "Stretches the side and top view vertically, as far as there is room, if the lens is too narrow to see.",
-        );
-    }
-
-    fn views(&self, ui: &Ui, diagram: &Diagram) {
-        let ([left, top], [width, height]) = (ui.cursor_screen_pos(), ui.content_region_avail());
-        let middle = [left + (0.6 * width).floor(), top + (0.5 * height).floor()];
-        let (right, bottom) = (left + width, top + height);
-        let list = ui.get_window_draw_list();
-        let half = 0.5 * GAP;
-        let color = ui.style_color(StyleColor::WindowBg);
-        let gaps = [
-            ([middle[0] - half, top], [middle[0] + half, bottom]),
-            ([left, middle[1] - half], [right, middle[1] + half]),
-        ];
-        for (from, to) in gaps {
-            list.add_rect(from, to, color).filled(true).build();
-        }
-        let corner = |x: f32, y: f32| [x, y];
-        let side = Paper::new(&list, corner(left, top), corner(middle[0] - half, middle[1] - half));
-        self.scene_side(side, View::Side, diagram);
-        let above = Paper::new(&list, corner(left, middle[1] + half), corner(middle[0] - half, bottom));
-        self.scene_side(above, View::Top, diagram);
-        front(Paper::new(&list, corner(middle[0] + half, top), corner(right, middle[1] - half)), diagram);
-        film_side(
-            Paper::new(&list, corner(middle[0] + half, middle[1] + half), corner(right, bottom)),
-            diagram,
-        );
-        drop(list);
-        ui.dummy([width, (height - 1.0).max(0.0)]);
-    }
-
-    /// Draws the view in front of the lens: lens, view plane, focal plane, the centre ray and the fan of primary rays.
-    fn scene_side(&self, mut paper: Paper<'_>, side: View, diagram: &Diagram) {
-        let (fan, axis) = match side {
-            View::Side => (&diagram.fan_up, 1),
-            View::Top | View::Front => (&diagram.fan_across, 0),
-        };
-        let (half, half_aperture) = (diagram.half_picture[axis], diagram.half_aperture[axis]);
-        let points = [Some(diagram.q), diagram.focus.map(|focus| focus.1), diagram.hit];
-        let aside = points.into_iter().flatten().map(|point| side.flat(point)[1]);
-        let aside: Vec<f64> = aside.chain([half, -half, half_aperture, -half_aperture]).collect();
-        let bounds = [[-0.05 * diagram.reach, diagram.reach], around(&aside)];
-        paper.fit(bounds, f64::from(self.stretch), side);
-        let list = paper.list;
-        list.with_clip_rect_intersect(paper.min, paper.max, || {
-            let axis = [DVec3::ZERO, DVec3::new(0.0, 0.0, 2.0 * diagram.reach)];
-            paper.line(axis, FRAME, 1.0);
-            paper.upright(diagram.view_plane, [-half, half], FAINT, 1.5);
-            for ray in fan {
-                paper.line(*ray, PRIMARY, 1.0);
-            }
-            if let Some(hit) = diagram.hit {
-                for ray in fan {
-                    paper.line([hit, ray[0]], FAINT_LIGHT, 1.0);
+        ui.set_next_item_width(150.0);
+        let (_, shown, help) =
+            DRAWINGS.into_iter().find(|drawing| drawing.0 == self.shown).unwrap_or(DRAWINGS[0]);
+        match ui.begin_combo("##drawing", shown) {
+            Some(_open) => {
+                for (drawing, name, _) in DRAWINGS {
+                    if ui.selectable_config(name).selected(drawing == self.shown).build() {
+                        self.shown = drawing;
+                    }
+                    note_item(ui, name, layout);
                 }
             }
-            paper.dashed(diagram.centre, CENTRE);
-            if let Some((depth, _)) = diagram.focus {
-                paper.tall(depth, FOCUS);
+            // While the list is open, the last item is an entry of it and not the list.
+            None => {
+                note_item(ui, "Drawing", layout);
+                tooltip(ui, help);
             }
-            paper.upright(0.0, [-half_aperture, half_aperture], GLASS, 4.0);
-            paper.dot(diagram.q, FAINT, "q");
-            if let Some(hit) = diagram.hit {
-                paper.dot(hit, LIGHT, "hit");
-            }
-            if let Some((_, p)) = diagram.focus {
-                paper.dot(p, FOCUS, "p");
-            }
-            paper.title(if side == View::Side { "Side" } else { "Top" });
-            paper.scale_bar();
-            let label = "view plane";
-            let room = LETTER * (label.len() + 1) as f32;
-            let at = |depth: f64| paper.place(DVec3::new(0.0, 0.0, depth))[0];
-            let next = diagram.focus.as_ref().map_or(f32::INFINITY, |(depth, _)| at(*depth));
-            paper.foot(diagram.view_plane, label, FAINT, next - at(diagram.view_plane) < room);
-            if let Some((depth, _)) = diagram.focus {
-                paper.foot(depth, "focal plane", FOCUS, false);
-            }
-        });
+        }
+        if self.shown != Shown::Book {
+            ui.same_line();
+            ui.checkbox("To scale", &mut self.to_scale);
+            note_item(ui, "To scale", layout);
+            tooltip(
+                ui,
+                "Gives depths and heights the same scale everywhere. Otherwise the side of the film and the heights are \
+                 magnified, and the drawing says how much.",
+            );
+        }
     }
+}
+
+/// Draws the four views with the letters of the book.
+fn views(ui: &Ui, diagram: &Diagram) {
+    let ([left, top], [width, height]) = (ui.cursor_screen_pos(), ui.content_region_avail());
+    let middle = [left + (0.6 * width).floor(), top + (0.5 * height).floor()];
+    let (right, bottom) = (left + width, top + height);
+    let list = ui.get_window_draw_list();
+    let half = 0.5 * GAP;
+    let color = ui.style_color(StyleColor::WindowBg);
+    let gaps = [
+        ([middle[0] - half, top], [middle[0] + half, bottom]),
+        ([left, middle[1] - half], [right, middle[1] + half]),
+    ];
+    for (from, to) in gaps {
+        list.add_rect(from, to, color).filled(true).build();
+    }
+    let corner = |x: f32, y: f32| [x, y];
+    let side = Paper::new(&list, corner(left, top), corner(middle[0] - half, middle[1] - half));
+    scene_side(side, View::Side, diagram);
+    let above = Paper::new(&list, corner(left, middle[1] + half), corner(middle[0] - half, bottom));
+    scene_side(above, View::Top, diagram);
+    front(Paper::new(&list, corner(middle[0] + half, top), corner(right, middle[1] - half)), diagram);
+    film_side(Paper::new(&list, corner(middle[0] + half, middle[1] + half), corner(right, bottom)), diagram);
+    drop(list);
+    ui.dummy([width, (height - 1.0).max(0.0)]);
+}
+
+/// Draws the view in front of the lens: lens, view plane, focal plane, the centre ray and the fan of primary rays.
+fn scene_side(mut paper: Paper<'_>, side: View, diagram: &Diagram) {
+    let (fan, axis) = match side {
+        View::Side => (&diagram.fan_up, 1),
+        View::Top | View::Front => (&diagram.fan_across, 0),
+    };
+    let (half, half_aperture) = (diagram.half_picture[axis], diagram.half_aperture[axis]);
+    let points = [Some(diagram.q), diagram.focus.map(|focus| focus.1), diagram.hit];
+    let aside = points.into_iter().flatten().map(|point| side.flat(point)[1]);
+    let aside: Vec<f64> = aside.chain([half, -half, half_aperture, -half_aperture]).collect();
+    let bounds = [[-0.05 * diagram.reach, diagram.reach], around(&aside)];
+    paper.fit(bounds, side);
+    let list = paper.list;
+    list.with_clip_rect_intersect(paper.min, paper.max, || {
+        let axis = [DVec3::ZERO, DVec3::new(0.0, 0.0, 2.0 * diagram.reach)];
+        paper.line(axis, FRAME, 1.0);
+        paper.upright(diagram.view_plane, [-half, half], FAINT, 1.5);
+        for ray in fan {
+            paper.line(*ray, PRIMARY, 1.0);
+        }
+        if let Some(hit) = diagram.hit {
+            for ray in fan {
+                paper.line([hit, ray[0]], FAINT_LIGHT, 1.0);
+            }
+        }
+        paper.dashed(diagram.centre, CENTRE);
+        if let Some((depth, _)) = diagram.focus {
+            paper.tall(depth, FOCUS);
+        }
+        paper.upright(0.0, [-half_aperture, half_aperture], GLASS, 4.0);
+        paper.dot(diagram.q, FAINT, "q");
+        if let Some(hit) = diagram.hit {
+            paper.dot(hit, LIGHT, "hit");
+        }
+        if let Some((_, p)) = diagram.focus {
+            paper.dot(p, FOCUS, "p");
+        }
+        paper.title(if side == View::Side { "Side" } else { "Top" });
+        paper.scale_bar();
+        let label = "view plane";
+        let room = LETTER * (label.len() + 1) as f32;
+        let at = |depth: f64| paper.place(DVec3::new(0.0, 0.0, depth))[0];
+        let next = diagram.focus.as_ref().map_or(f32::INFINITY, |(depth, _)| at(*depth));
+        paper.foot(diagram.view_plane, label, FAINT, next - at(diagram.view_plane) < room);
+        if let Some((depth, _)) = diagram.focus {
+            paper.foot(depth, "focal plane", FOCUS, false);
+        }
+    });
 }
 
 /// Paints the background of the window, except for its title and this rectangle, which the views cover.
@@ -194,7 +256,7 @@ fn front(mut paper: Paper<'_>, diagram: &Diagram) {
     let half = diagram.half_aperture;
     let points = [half, half.map(|extent| -extent), View::Front.flat(diagram.q)];
     let bounds = [0, 1].map(|axis| around(&points.map(|point| point[axis])));
-    paper.fit(bounds, 1.0, View::Front);
+    paper.fit(bounds, View::Front);
     let list = paper.list;
     list.with_clip_rect_intersect(paper.min, paper.max, || {
         let [x, y] = diagram.half_picture;
@@ -238,7 +300,7 @@ fn film_side(mut paper: Paper<'_>, diagram: &Diagram) {
         .map(|point| point.y)
         .chain([image.p.y, half_aperture, -half_aperture])
         .collect();
-    paper.fit([[1.06 * end, 0.10 * v], around(&aside)], 1.0, View::Side);
+    paper.fit([[1.06 * end, 0.10 * v], around(&aside)], View::Side);
     let list = paper.list;
     list.with_clip_rect_intersect(paper.min, paper.max, || {
         paper.line([DVec3::new(0.0, 0.0, -2.0 * v), DVec3::new(0.0, 0.0, v)], FRAME, 1.0);

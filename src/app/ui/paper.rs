@@ -1,6 +1,6 @@
 //! A drawing surface for the optics: a rectangle of the window that shows the scene to scale.
 
-use crate::app::diagram::Line;
+use crate::diagram::Line;
 use glam::DVec3;
 use imgui::DrawListMut;
 
@@ -60,17 +60,15 @@ impl<'a> Paper<'a> {
         Self { list, min, max, side: View::Side, middle: [0.0; 2], scale: [1.0; 2] }
     }
 
-    /// Shows these bounds in the rectangle, as large as possible. Stretches the height by up to `stretch`, as far as
-    /// there is room.
-    pub(super) fn fit(&mut self, bounds: [[f64; 2]; 2], stretch: f64, side: View) {
+    /// Shows these bounds in the rectangle, as large as possible.
+    pub(super) fn fit(&mut self, bounds: [[f64; 2]; 2], side: View) {
         let [width, height] = [0, 1].map(|axis| self.max[axis] - self.min[axis]);
         let room = [width, (height - HEAD - FOOT).max(1.0)].map(f64::from);
         let extent = bounds.map(|[low, high]| high - low);
-        let widest = room[1] / extent[1].max(1e-12);
-        let scale = (room[0] / extent[0]).min(widest);
+        let scale = (room[0] / extent[0]).min(room[1] / extent[1].max(1e-12));
         self.side = side;
         self.middle = bounds.map(|[low, high]| 0.5 * (low + high));
-        self.scale = [scale, (scale * stretch).min(widest)];
+        self.scale = [scale; 2];
     }
 
     pub(super) fn place(&self, point: DVec3) -> [f32; 2] {

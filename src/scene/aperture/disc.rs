@@ -1,6 +1,6 @@
 //! A disc.
 
-use super::Kind;
+use super::{Kind, Opening};
 
 /// A disc.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -9,5 +9,9 @@ pub struct Disc;
 impl Kind for Disc {
     fn relative_area(&self) -> f64 {
         1.0
+    }
+
+    fn openings(&self, _film: [f64; 2]) -> Vec<Opening> {
+        Opening::around([0.0; 2], 0.0, |_| 1.0)
     }
 }

@@ -1,7 +1,7 @@
 //! An image that gives the shape of the aperture. It is read from a PNG row by row, so that a large file needs little
 //! memory.
 
-use super::Kind;
+use super::{Kind, Opening};
 use crate::error::{Error, Result};
 use crate::input_file;
 use crate::scene::MAX_EXTENT;
@@ -13,6 +13,8 @@ use std::sync::Arc;
 
 /// Images are reduced to at most this many cells on the longer side.
 const MAX_CELLS: u32 = 256;
+/// An image is drawn with at most this many squares on the longer side.
+const MAX_OPENINGS: u32 = 48;
 /// The advice for a damaged file.
 const ANEW: &str = "save the image anew as a PNG";
 /// The value of a white, opaque pixel: the sum of three colours of 255, times an opacity of 255.
@@ -58,6 +60,31 @@ impl Kind for ApertureImage {
         let longer = f64::from(self.size[0].max(self.size[1]));
         let light: f64 = self.cells.iter().copied().map(f64::from).sum();
         light * (2.0 / longer).powi(2) / PI
+    }
+
+    fn openings(&self, _film: [f64; 2]) -> Vec<Opening> {
+        let [columns, rows] = self.size;
+        let longer = f64::from(columns.max(rows));
+        let step = columns.max(rows).div_ceil(MAX_OPENINGS);
+        let mut openings = Vec::new();
+        for (top, left) in (0..rows)
+            .step_by(step as usize)
+            .flat_map(|y| (0..columns).step_by(step as usize).map(move |x| (y, x)))
+        {
+            let (bottom, right) = ((top + step).min(rows), (left + step).min(columns));
+            let cells = (top..bottom).flat_map(|y| {
+                let row = &self.cells[(y * columns) as usize..];
+                row[left as usize..right as usize].iter()
+            });
+            let light = cells.sum::<f32>() / ((bottom - top) * (right - left)) as f32;
+            let x = [left, right].map(|x| (2.0 * f64::from(x) - f64::from(columns)) / longer);
+            let y = [bottom, top].map(|y| (f64::from(rows) - 2.0 * f64::from(y)) / longer);
+            let corners = vec![[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]];
+            if light > 0.0 {
+                openings.push(Opening { corners, light });
+            }
+        }
+        openings
     }
 }
 

@@ -10,6 +10,7 @@ mod image;
 pub use image::Mask;
 
 use super::CameraModel;
+use std::f64::consts::TAU;
 use std::fmt::Display;
 
 /// Calls a macro with the list of all kinds. An entry has the name of the kind, its type and its file.
@@ -29,6 +30,36 @@ macro_rules! aperture_kinds {
 trait Kind {
     /// The area of the aperture as seen from the middle of the picture, divided by that of a disc of the same diameter.
     fn relative_area(&self) -> f64;
+
+    /// The parts through which light comes in, as seen from a film point, which is given relative to the picture's
+    /// centre, y up, in units of the distance to a corner.
+    fn openings(&self, film: [f64; 2]) -> Vec<Opening>;
+}
+
+/// A part of an aperture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Opening {
+    /// The corners of a convex polygon, anticlockwise, in units of the aperture's radius. As seen from behind the
+    /// camera, x is to the right and y up.
+    pub corners: Vec<[f64; 2]>,
+    /// The share of the light that it lets in.
+    pub light: f32,
+}
+
+/// A round opening is a polygon with this many corners.
+const CORNERS: u32 = 96;
+
+impl Opening {
+    /// An opening with this distance of the rim from a point, in each direction. The first corner is in the direction
+    /// `start`, and another one opposite to it.
+    fn around(middle: [f64; 2], start: f64, rim: impl Fn(f64) -> f64) -> Vec<Self> {
+        let corner = |number: u32| {
+            let angle = start + TAU * f64::from(number) / f64::from(CORNERS);
+            let radius = rim(angle);
+            [middle[0] + radius * angle.cos(), middle[1] + radius * angle.sin()]
+        };
+        vec![Self { corners: (0..CORNERS).map(corner).collect(), light: 1.0 }]
+    }
 }
 
 macro_rules! define_aperture {
@@ -44,6 +75,10 @@ macro_rules! define_aperture {
         impl Kind for ApertureKind {
             fn relative_area(&self) -> f64 {
                 match self { $(Self::$kind(of) => of.relative_area(),)+ }
+            }
+
+            fn openings(&self, film: [f64; 2]) -> Vec<Opening> {
+                match self { $(Self::$kind(of) => of.openings(film),)+ }
             }
         }
     };
@@ -121,5 +156,16 @@ impl Aperture {
     pub fn relative_area(&self) -> f64 {
         let [half_width, half_height] = self.stretch();
         half_width * half_height * self.kind(CameraModel::ThinLens).relative_area()
+    }
+
+    /// The parts through which light comes in, as seen from a film point, which is given relative to the picture's
+    /// centre, y up, in units of the distance to a corner.
+    pub fn openings(&self, model: CameraModel, film: [f64; 2]) -> Vec<Opening> {
+        let stretch = self.stretch();
+        let mut openings = self.kind(model).openings(film);
+        for corner in openings.iter_mut().flat_map(|opening| &mut opening.corners) {
+            *corner = [0, 1].map(|axis| stretch[axis] * corner[axis]);
+        }
+        openings
     }
 }

@@ -1,11 +1,12 @@
-//! The light paths of one pixel as points and lines, for a drawing of the optics.
+//! The light paths of one pixel as points and lines.
 //!
 //! Points are in the camera's frame, in scene units: right, up, and the depth in front of the lens. Depth is negative
 //! behind the lens, on the side of the film. K. Suffern, *Ray Tracing from the Ground Up*,
 //! chapter 10; the side of the film follows from the equation of the thin lens, `1 / f = 1 / v + 1 / F`.
 
+use super::outline::{Outline, Section, outlines};
 use crate::renderer::{LensRay, Picked};
-use crate::scene::CameraModel;
+use crate::scene::{CameraModel, Opening};
 use crate::settings::Estimator;
 use glam::DVec3;
 
@@ -22,6 +23,10 @@ pub type Line = [DVec3; 2];
 /// What is drawn in front of the lens.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagram {
+    /// The camera model.
+    pub model: CameraModel,
+    /// The length of a scene unit in millimetres.
+    pub mm_per_unit: f64,
     /// Half the width and half the height of the aperture; 0 for a pinhole.
     pub half_aperture: [f64; 2],
     /// The depth at which the drawing ends.
@@ -36,6 +41,14 @@ pub struct Diagram {
     pub focus: Option<(f64, DVec3)>,
     /// The point where the centre ray hits a surface, if it hits one.
     pub hit: Option<DVec3>,
+    /// The name of the material there.
+    pub material: String,
+    /// The direction of the centre ray, for a depth of one.
+    pub slope: DVec3,
+    /// What the plane through the centre ray and the vertical cuts of the scene: for the side view.
+    pub outlines_up: Vec<Outline>,
+    /// What the plane through the centre ray and the horizontal cuts of the scene: for the top view.
+    pub outlines_across: Vec<Outline>,
     /// The ray through the centre of the lens.
     pub centre: Line,
     /// Primary rays from points of the lens on its vertical diameter, from bottom to top: for the side view.
@@ -66,6 +79,11 @@ pub struct ImageSide {
     pub blur: f64,
     /// The diameter of the circle of confusion in pixels.
     pub blur_pixels: f64,
+    /// The shape of the circle of confusion: the openings of the aperture, in units of its radius.
+    pub openings: Vec<Opening>,
+    /// How far from its middle the circle of confusion has the light of a point on the rim of the aperture, in pixels of
+    /// the picture. It is negative if the picture shows the shape of the aperture upside down.
+    pub blur_radius: f64,
 }
 
 impl Diagram {
@@ -100,13 +118,16 @@ impl Diagram {
             [origin, origin + end * direction]
         };
         let lines = |rays: &[LensRay]| rays.iter().map(line).collect::<Vec<_>>();
-        let [width, height] = estimator.size.map(f64::from);
+        let size @ [width, height] = estimator.size.map(f64::from);
         let half_height = (0.5 * camera.vfov_radians).tan() * view_plane;
         let (fan_up, fan_across) = (lines(picked.fan_up()), lines(picked.fan_across()));
         // The outermost rays start on the rim.
         let half_aperture =
             [fan_across.last().map_or(0.0, |ray| ray[0].x), fan_up.last().map_or(0.0, |ray| ray[0].y)];
+        let cut = |section| outlines(&estimator.scene, &local, section, slope, 2.0 * reach);
         let mut diagram = Self {
+            model: estimator.model,
+            mm_per_unit: camera.mm_per_unit(),
             half_aperture,
             reach,
             view_plane,
@@ -114,6 +135,10 @@ impl Diagram {
             q: slope * view_plane,
             focus,
             hit,
+            material: picked.surface.as_ref().map_or_else(String::new, |surface| surface.material.clone()),
+            slope,
+            outlines_up: cut(Section::Up),
+            outlines_across: cut(Section::Across),
             centre: line(&picked.rays[0]),
             fan_up,
             fan_across,
@@ -123,6 +148,14 @@ impl Diagram {
         if let Some(hit) = hit {
             let pixels_per_unit = camera.view_distance_pixels(estimator.size[1]) / camera.film_distance();
             diagram.take_light(hit, pixels_per_unit);
+            let upright = estimator.model == CameraModel::Hole && estimator.hole.upright;
+            if upright {
+                diagram.image.blur_radius = -diagram.image.blur_radius;
+            }
+            // The film position in units of the distance to a corner.
+            let corner = 0.5 * size[0].hypot(size[1]) / camera.view_distance_pixels(estimator.size[1]);
+            let film = [slope.x / corner, slope.y / corner];
+            diagram.image.openings = estimator.aperture.openings(estimator.model, film);
         }
         diagram
     }
@@ -146,6 +179,8 @@ impl Diagram {
         let radius = self.half_aperture[0].max(self.half_aperture[1]);
         let rim = |side: f64| refracted(DVec3::new(0.0, side * radius, 0.0), v).y;
         self.image.blur = (rim(1.0) - rim(-1.0)).abs();
+        // The film shows everything upside down, and the picture is upright.
+        self.image.blur_radius = -0.5 * (rim(1.0) - rim(-1.0)) * pixels_per_unit;
         self.image.blur_pixels = self.image.blur * pixels_per_unit;
         self.image.crossing = crossing;
     }
@@ -161,6 +196,8 @@ impl ImageSide {
             crossing: None,
             blur: 0.0,
             blur_pixels: 0.0,
+            openings: Vec::new(),
+            blur_radius: 0.0,
         }
     }
 }

@@ -1,0 +1,77 @@
+//! The drawing of the optics: film, lens, focal plane and object from left to right, with the rays of one pixel.
+//!
+//! [`Diagram`] holds the points and lines, in scene units. [`draw`] makes a [`Drawing`] of it: lines, areas and text,
+//! each in its place on a sheet. The viewer paints that sheet, and [`svg`] writes it to a file, so the two are the same.
+
+mod film;
+mod outline;
+mod paths;
+mod section;
+mod sheet;
+mod svg;
+mod words;
+
+pub use outline::Outline;
+pub use paths::{Diagram, ImageSide, Line};
+pub use section::Scale;
+pub use sheet::{Anchor, LETTERS, Pane, Point, Role, Shape, text_width};
+pub use svg::svg;
+pub use words::{depth, millimetres, sentence};
+
+use crate::scene::CameraModel;
+use crate::settings::Settings;
+use sheet::{LINE, MARGIN, wrapped};
+
+/// The share of the width that the picture of the film takes, if it does not become higher than wide.
+const FILM_SHARE: f32 = 0.3;
+
+/// How the optics are drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Look {
+    /// Width and height of the drawing.
+    pub size: [f32; 2],
+    /// Whether the section is seen from above and not from the right.
+    pub above: bool,
+    /// Whether depths and heights have the same scale on both sides of the lens.
+    pub to_scale: bool,
+    /// The depths between which everything is sharp, if they are to be shown.
+    pub sharp: Option<[f64; 2]>,
+}
+
+/// The whole drawing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drawing {
+    /// Width and height.
+    pub size: [f32; 2],
+    /// Its parts. Together they cover it, and none covers another one.
+    pub panes: Vec<Pane>,
+    /// Where the section draws which point.
+    pub scale: Scale,
+}
+
+/// The depths between which everything is sharp, for a lens.
+pub fn sharp_depths(settings: &Settings) -> Option<[f64; 2]> {
+    let estimator = &settings.estimator;
+    let has_lens = estimator.model == CameraModel::ThinLens && estimator.lens.diameter > 0.0;
+    has_lens.then(|| settings.depth_of_field())
+}
+
+/// Draws the optics: the section on the left, the circle of confusion on the right, and a sentence below.
+pub fn draw(diagram: &Diagram, look: &Look) -> Drawing {
+    let [width, height] = look.size.map(|extent| extent.max(1.0));
+    let lines = wrapped(&sentence(diagram), width - 2.0 * MARGIN);
+    let words_height = lines.len() as f32 * LINE + MARGIN;
+    let bottom = (height - words_height).max(1.0);
+    let film_left = (width - bottom.min(FILM_SHARE * width)).floor();
+    let ([above, section, below], scale) = section::draw(diagram, look, [film_left, bottom]);
+    let mut film = film::draw(diagram, [film_left, 0.0], [width, bottom]);
+    film.line([film_left, 0.0], [film_left, bottom], Role::Frame, 1.0);
+    let mut words = Pane::new([0.0, bottom], [width, height]);
+    words.rectangle(words.min, words.max, Role::Paper);
+    words.line(words.min, [width, bottom], Role::Frame, 1.0);
+    for (number, line) in (0_u8..).zip(lines) {
+        let y = bottom + 0.5 * MARGIN + (f32::from(number) + 0.5) * LINE;
+        words.text([MARGIN, y], Anchor::Start, Role::Text, line);
+    }
+    Drawing { size: [width, height], panes: vec![above, section, below, film, words], scale }
+}

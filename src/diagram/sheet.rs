@@ -1,0 +1,257 @@
+//! What a drawing consists of: lines, areas and text, whose colours follow from what they stand for.
+
+use ab_glyph::{Font, FontRef, PxScale, ScaleFont};
+use std::sync::LazyLock;
+
+/// A place on the sheet: to the right and down from its upper left corner.
+pub type Point = [f32; 2];
+
+/// The size of the letters.
+pub const LETTERS: f32 = 16.0;
+/// The height of a line of text.
+pub(super) const LINE: f32 = 20.0;
+/// The space between the edge of the sheet and a text.
+pub(super) const MARGIN: f32 = 8.0;
+/// The space between two texts of a row.
+const APART: f32 = 14.0;
+
+/// The font of the drawing, which is that of the viewer.
+static FONT: LazyLock<FontRef<'static>> = LazyLock::new(|| {
+    FontRef::try_from_slice(epaint_default_fonts::UBUNTU_LIGHT).expect("the font is a part of the program")
+});
+
+/// What a part of the drawing stands for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Role {
+    /// The background.
+    Paper,
+    /// The edge of the background, and the optical axis.
+    Frame,
+    /// Text and lines that explain.
+    Faint,
+    /// Text.
+    Text,
+    /// The film.
+    Film,
+    /// The rim of the lens or the hole.
+    Glass,
+    /// The inside of the lens.
+    GlassInside,
+    /// The focal plane.
+    Focus,
+    /// The depths that are sharp.
+    Sharp,
+    /// The name of the depths that are sharp.
+    SharpName,
+    /// The rays that the renderer traces.
+    Ray,
+    /// The light of the object.
+    Light,
+    /// The ray through the centre of the lens.
+    Centre,
+    /// The circle of confusion, and the place where light meets.
+    Blur,
+    /// The inside of the circle of confusion, with this share of the light.
+    BlurInside(f32),
+    /// The pixel that is looked at.
+    Pixel,
+    /// The edges of the pixels.
+    Grid,
+    /// The outline of an object of this colour.
+    Object([f32; 3]),
+    /// The inside of an object of this colour.
+    ObjectInside([f32; 3]),
+}
+
+impl Role {
+    /// Red, green and blue in sRGB, and the opacity.
+    pub fn color(self) -> [f32; 4] {
+        match self {
+            Self::Paper => [0.045, 0.05, 0.065, 1.0],
+            Self::Frame => [0.30, 0.33, 0.38, 1.0],
+            Self::Faint => [0.62, 0.65, 0.71, 1.0],
+            Self::Text => [0.86, 0.88, 0.92, 1.0],
+            Self::Film => [0.80, 0.82, 0.88, 1.0],
+            Self::Glass => [0.45, 0.75, 1.0, 1.0],
+            Self::GlassInside => [0.45, 0.75, 1.0, 0.20],
+            Self::Focus => [1.0, 0.66, 0.15, 1.0],
+            Self::Sharp => [0.35, 0.85, 0.40, 0.22],
+            Self::SharpName => [0.50, 0.88, 0.52, 1.0],
+            Self::Ray => [1.0, 0.93, 0.55, 0.35],
+            Self::Light => [0.45, 0.85, 0.90, 0.85],
+            Self::Centre => [1.0, 1.0, 1.0, 0.80],
+            Self::Blur => [1.0, 0.42, 0.47, 1.0],
+            Self::BlurInside(light) => [1.0, 0.36, 0.42, 0.60 * light.clamp(0.0, 1.0)],
+            Self::Pixel => [1.0, 1.0, 1.0, 0.16],
+            Self::Grid => [0.45, 0.48, 0.54, 0.55],
+            Self::Object([red, green, blue]) => [red, green, blue, 0.9],
+            Self::ObjectInside([red, green, blue]) => [red, green, blue, 0.25],
+        }
+    }
+}
+
+/// Which part of a text stands at its place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Anchor {
+    /// Its beginning.
+    Start,
+    /// Its middle.
+    Middle,
+    /// Its end.
+    End,
+}
+
+impl Anchor {
+    /// The left end of a text of this width.
+    pub fn left(self, x: f32, width: f32) -> f32 {
+        match self {
+            Self::Start => x,
+            Self::Middle => x - 0.5 * width,
+            Self::End => x - width,
+        }
+    }
+}
+
+/// A part of the drawing.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Shape {
+    /// A line through these points. The last one is joined to the first one if it is closed.
+    Line {
+        /// The points.
+        points: Vec<Point>,
+        /// What it stands for.
+        role: Role,
+        /// The width of the line.
+        width: f32,
+        /// Whether it ends where it began.
+        closed: bool,
+        /// Whether it has gaps.
+        dashed: bool,
+    },
+    /// The inside of a convex polygon.
+    Area {
+        /// The corners.
+        corners: Vec<Point>,
+        /// What it stands for.
+        role: Role,
+    },
+    /// A dot.
+    Dot {
+        /// Its middle.
+        at: Point,
+        /// Its radius.
+        radius: f32,
+        /// What it stands for.
+        role: Role,
+    },
+    /// A line of text.
+    Text {
+        /// The place of the anchor, half-way up.
+        at: Point,
+        /// Which part of the text is there.
+        anchor: Anchor,
+        /// What it stands for.
+        role: Role,
+        /// The text.
+        text: String,
+    },
+}
+
+/// A rectangle of the sheet, whose shapes are cut off at its edge.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pane {
+    /// The upper left corner.
+    pub min: Point,
+    /// The lower right corner.
+    pub max: Point,
+    /// Its shapes, the lowest one first.
+    pub shapes: Vec<Shape>,
+}
+
+impl Pane {
+    pub(super) fn new(min: Point, max: Point) -> Self {
+        Self { min, max: [max[0].max(min[0] + 1.0), max[1].max(min[1] + 1.0)], shapes: Vec::new() }
+    }
+
+    pub(super) fn line(&mut self, from: Point, to: Point, role: Role, width: f32) {
+        self.shapes.push(Shape::Line { points: vec![from, to], role, width, closed: false, dashed: false });
+    }
+
+    pub(super) fn dashed(&mut self, from: Point, to: Point, role: Role) {
+        self.shapes.push(Shape::Line {
+            points: vec![from, to],
+            role,
+            width: 1.5,
+            closed: false,
+            dashed: true,
+        });
+    }
+
+    pub(super) fn outline(&mut self, points: Vec<Point>, role: Role, width: f32) {
+        self.shapes.push(Shape::Line { points, role, width, closed: true, dashed: false });
+    }
+
+    pub(super) fn area(&mut self, corners: Vec<Point>, role: Role) {
+        self.shapes.push(Shape::Area { corners, role });
+    }
+
+    pub(super) fn rectangle(&mut self, from: Point, to: Point, role: Role) {
+        self.area(vec![from, [to[0], from[1]], to, [from[0], to[1]]], role);
+    }
+
+    pub(super) fn dot(&mut self, at: Point, radius: f32, role: Role) {
+        self.shapes.push(Shape::Dot { at, radius, role });
+    }
+
+    pub(super) fn text(&mut self, at: Point, anchor: Anchor, role: Role, text: String) {
+        self.shapes.push(Shape::Text { at, anchor, role, text });
+    }
+
+    /// Writes names in a row, each as near as possible to its place, and none over another one. If there is not room
+    /// for all of them, the last ones in the list are left out.
+    pub(super) fn row(&mut self, y: f32, mut names: Vec<(f32, Role, String)>) {
+        let (left, right) = (self.min[0] + MARGIN, self.max[0] - MARGIN);
+        let needed = |names: &[(f32, Role, String)]| {
+            names.iter().map(|(.., name)| text_width(name) + APART).sum::<f32>() - APART
+        };
+        while !names.is_empty() && needed(&names) > right - left {
+            names.pop();
+        }
+        names.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut starts = Vec::new();
+        let mut free = left;
+        for (x, _, name) in &names {
+            let start = (x - 0.5 * text_width(name)).max(free);
+            starts.push(start);
+            free = start + text_width(name) + APART;
+        }
+        let mut end = right;
+        for ((_, role, name), start) in names.into_iter().zip(starts).rev() {
+            let start = start.min(end - text_width(&name));
+            end = start - APART;
+            self.text([start, y], Anchor::Start, role, name);
+        }
+    }
+}
+
+/// The width of a text in the font of the drawing.
+pub fn text_width(text: &str) -> f32 {
+    // The viewer's font has this height from the lowest to the highest letter.
+    let font = FONT.as_scaled(PxScale::from(LETTERS));
+    text.chars().map(|letter| font.h_advance(font.glyph_id(letter))).sum()
+}
+
+/// The text in lines of at most this width.
+pub(super) fn wrapped(text: &str, width: f32) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split(' ') {
+        match lines.last_mut() {
+            Some(line) if text_width(&format!("{line} {word}")) <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}

@@ -1,0 +1,101 @@
+//! Draws the optics of a pixel to a file.
+
+use super::headless::position;
+use super::say;
+use crate::diagram::{self, Diagram, Look, sharp_depths};
+use crate::error::{Error, Result};
+use crate::pending_file::{PendingFile, keep_apart};
+use crate::renderer::{Question, Renderer};
+use crate::settings::{DeviceChoice, Place, Settings};
+use crate::vulkan::{Device, Instance};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The smallest and the largest width and height of a drawing.
+const EXTENTS: [u32; 2] = [200, 16384];
+/// The smallest and the largest number of rays through the lens.
+const RAYS: [u32; 2] = [3, 65];
+
+/// A drawing of the optics of one pixel.
+#[derive(Debug, Clone)]
+pub struct DrawingJob {
+    /// What is rendered.
+    pub settings: Settings,
+    /// The pixel.
+    pub pixel: Place,
+    /// Width and height of the drawing.
+    pub size: [u32; 2],
+    /// The number of rays through the lens.
+    pub rays: u32,
+    /// Whether the section is seen from above and not from the right.
+    pub above: bool,
+    /// Whether depths and heights have the same scale everywhere.
+    pub to_scale: bool,
+    /// The SVG file.
+    pub output: PathBuf,
+    /// The device that traces the rays.
+    pub device: DeviceChoice,
+    /// Whether to say nothing unless it fails.
+    pub quiet: bool,
+}
+
+/// Draws the optics, writes the file, and says what happens with the light of the pixel.
+///
+/// # Errors
+/// [`Error::OutOfRange`], those of rendering and of writing, and [`Error::Validation`] if the layer had something to
+/// say.
+pub fn draw_optics(job: &DrawingJob) -> Result<()> {
+    check_name(&job.output)?;
+    for (what, value, [least, most]) in [
+        ("the width of the drawing", job.size[0], EXTENTS),
+        ("the height of the drawing", job.size[1], EXTENTS),
+        ("rays", job.rays, RAYS),
+    ] {
+        if !(least..=most).contains(&value) {
+            return Err(Error::OutOfRange(format!("{what} is {value}, but must be from {least} to {most}")));
+        }
+    }
+    keep_apart(&[("the drawing", &job.output)], &job.settings.files())?;
+    let instance = Instance::new(job.device.validation, None)?;
+    draw_on(&instance, job)?;
+    instance.check_validation()
+}
+
+/// Writes a drawing to an SVG file.
+///
+/// # Errors
+/// [`Error::OutOfRange`] for a name that does not end in `.svg`, or [`Error::Write`].
+pub fn save_drawing(drawing: &diagram::Drawing, path: &Path) -> Result<()> {
+    check_name(path)?;
+    PendingFile::create(path)?.write(diagram::svg(drawing).as_bytes())
+}
+
+fn check_name(path: &Path) -> Result<()> {
+    if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("svg")) {
+        return Err(Error::OutOfRange(format!("a drawing is a .svg; {} is not", path.display())));
+    }
+    Ok(())
+}
+
+fn draw_on(instance: &Arc<Instance>, job: &DrawingJob) -> Result<()> {
+    let position = position("pixel", &job.settings, job.pixel)?;
+    // As in the viewer, the optics are those of the middle of the pixel.
+    let position = position.map(|place| place.floor() + 0.5);
+    let device = Device::open(instance, job.device.device.as_deref(), None)?;
+    device.keep_pipelines();
+    let mut renderer = Renderer::new(&device, &job.settings)?;
+    let question = Question { position, fan: job.rays, samples: job.rays };
+    let picked = renderer.pick(question)?.expect("a renderer without a window answers at once");
+    let diagram = Diagram::new(&job.settings.estimator, &picked);
+    let look = Look {
+        size: job.size.map(|extent| extent as f32),
+        above: job.above,
+        to_scale: job.to_scale,
+        sharp: sharp_depths(&job.settings),
+    };
+    save_drawing(&diagram::draw(&diagram, &look), &job.output)?;
+    if !job.quiet {
+        say(&format!("{}: {}", job.output.display(), diagram::sentence(&diagram)))?;
+    }
+    Ok(())
+}
