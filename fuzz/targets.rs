@@ -194,6 +194,7 @@ fn command_line(input: &[u8]) -> Outcome {
         Command::View(_) => "view",
         Command::Render(_) => "render",
         Command::Sweep(_) => "sweep",
+        Command::Diagram(_) => "diagram",
         Command::Save(_) => "save",
         Command::Verify(_) => "verify",
         Command::Bench(_) => "bench",
@@ -220,6 +221,7 @@ fn pictures(command: Command) -> Result<Vec<Settings>> {
             pictures.iter().for_each(|picture| drop(args.sweep().labels(picture)));
             pictures
         }
+        Command::Diagram(args) => vec![args.settings.for_render()?],
         Command::Save(args) => vec![args.settings.for_render()?],
         Command::Verify(args) => args.settings.for_verify()?,
         Command::Bench(args) => args.pictures()?,
