@@ -3,9 +3,10 @@
 mod common;
 
 use anyhow::{Result, ensure};
-use common::{Gpu, prove, small};
+use common::{Gpu, prove, scene_of, small};
 use glam::DVec3;
-use thinlens::diagram::{self, Diagram, Drawing, Line, Look, Point, Role, Shape};
+use std::collections::BTreeSet;
+use thinlens::diagram::{self, Diagram, Drawing, Line, Look, Outline, Point, Role, Shape};
 use thinlens::renderer::Question;
 use thinlens::scene::{Aperture, CameraModel, Hole};
 use thinlens::settings::Settings;
@@ -137,7 +138,8 @@ fn light_spreads_on_the_film_over_the_circle_of_confusion() {
     assert!(diagram.half_aperture == [0.0; 2] && diagram.image.blur < 1e-12, "a pinhole blurs nothing");
 }
 
-const LOOK: Look = Look { size: [1100.0, 420.0], above: false, to_scale: false, sharp: Some([8.0, 12.0]) };
+const LOOK: Look =
+    Look { size: [1100.0, 420.0], above: false, to_scale: false, sharp: Some([8.0, 12.0]), scale: None };
 
 fn shapes(drawing: &Drawing) -> impl Iterator<Item = &Shape> {
     drawing.panes.iter().flat_map(|pane| &pane.shapes)
@@ -150,6 +152,29 @@ fn lines(drawing: &Drawing, of: Role) -> Vec<&[Point]> {
         _ => None,
     });
     points.collect()
+}
+
+/// The drawn areas that stand for something.
+fn areas(drawing: &Drawing, of: Role) -> Vec<&[Point]> {
+    let corners = shapes(drawing).filter_map(|shape| match shape {
+        Shape::Area { corners, role } if *role == of => Some(&corners[..]),
+        _ => None,
+    });
+    corners.collect()
+}
+
+/// The drawn dots that stand for something.
+fn dots(drawing: &Drawing, of: Role) -> Vec<Point> {
+    let places = shapes(drawing).filter_map(|shape| match shape {
+        Shape::Dot { at, role, .. } if *role == of => Some(*at),
+        _ => None,
+    });
+    places.collect()
+}
+
+/// The smallest and the largest value.
+fn range(values: impl Iterator<Item = f32>) -> [f32; 2] {
+    values.fold([f32::MAX, f32::MIN], |[low, high], value| [low.min(value), high.max(value)])
 }
 
 fn texts(drawing: &Drawing) -> Vec<&str> {
@@ -175,7 +200,8 @@ fn height([from, to]: [Point; 2], x: f32) -> f32 {
 }
 
 /// Catches a stretch that is said and not reached, most of all off the axis; light that is not drawn through one
-/// place, which is where the drawing says that it meets; and two sides of the lens that do not fit together.
+/// place, which is where the drawing says that it meets; two sides of the lens that do not fit together; and a blur on
+/// the film that is not where the drawn light falls.
 #[test]
 fn what_is_drawn_is_magnified_as_the_drawing_says() {
     let gpu = Gpu::new();
@@ -222,6 +248,14 @@ fn what_is_drawn_is_magnified_as_the_drawing_says() {
             let goes_on = arriving.iter().any(|from| (from[1][1] - ray[0][1]).abs() < 0.01);
             assert!(goes_on, "a ray begins at the lens, at {}", ray[0][1]);
         }
+        let meeting = dots(&drawing, Role::Blur);
+        let is_marked = meeting.iter().any(|dot| (dot[0] - meets).hypot(dot[1] - heights[0]) < 0.1);
+        assert!(is_marked, "light meets at {meets} {}, but the dots are at {meeting:?}", heights[0]);
+        let falls = range(leaving.iter().map(|line| height(*line, film)));
+        let blurs = lines(&drawing, Role::Blur);
+        let blur = blurs.iter().find(|line| line.iter().all(|point| point[0] == film)).expect("a blur");
+        let drawn = range(blur.iter().map(|point| point[1]));
+        assert!((0..2).all(|end| (drawn[end] - falls[end]).abs() < 0.1), "{drawn:?}, but light in {falls:?}");
 
         let drawing = diagram::draw(&diagram, &Look { above, to_scale: true, ..LOOK });
         let scale = drawing.scale;
@@ -269,11 +303,19 @@ fn the_film_shows_the_shape_of_the_blur() {
         let pixel = upright[1] - upright[0];
         let outline =
             lines(&drawing, Role::Blur).into_iter().max_by_key(|line| line.len()).expect("an outline");
-        let (low, high) =
-            outline.iter().fold((f32::MAX, f32::MIN), |(low, high), p| (low.min(p[1]), high.max(p[1])));
+        let [low, high] = range(outline.iter().map(|point| point[1]));
         // A triangle in a circle is three quarters as high as the circle.
         let shown = f64::from((high - low) / pixel);
         assert!((shown / (0.75 * image.blur_pixels) - 1.0).abs() < 0.01, "{shown} squares high");
+        // The light of the middle of the lens falls into the middle of the pixel, which is a square of the grid.
+        let square = areas(&drawing, Role::Pixel)[0];
+        let [left, right] = range(square.iter().map(|corner| corner[0]));
+        let is_line = |x: f32| upright.iter().any(|line| (line - x).abs() < 0.01);
+        assert!(is_line(left) && is_line(right), "the pixel from {left} to {right} is no square");
+        let middle = 0.5 * (left + right);
+        let dots = dots(&drawing, Role::Blur);
+        let dot = dots.iter().find(|dot| (dot[0] - middle).abs() < 0.01).expect("a dot in the middle");
+        assert_eq!(dot[1] - low > high - dot[1], higher > 0.0, "the picture of the blur is turned");
     }
     assert_eq!(directions, [1, 1], "the blur is upside down in front of the focal plane");
 }
@@ -323,6 +365,136 @@ fn outlines_are_those_of_the_apertures() {
         let expected = aperture.relative_area() * share * std::f64::consts::PI;
         assert!((area / expected - 1.0).abs() < 3e-3, "{aperture:?} at {film:?}: {area}, not {expected}");
     }
+}
+
+/// The colours of the objects below.
+const COLORS: [(&str, [f64; 3]); 5] = [
+    ("floor", [0.4, 0.4, 0.2]),
+    ("ball", [0.8, 0.1, 0.2]),
+    ("crate", [0.1, 0.3, 0.6]),
+    ("sail", [0.2, 0.7, 0.1]),
+    ("pipe", [0.5, 0.1, 0.5]),
+];
+
+/// Objects of every shape, each in a colour of its own.
+const OBJECTS: &str = r#"
+[camera]
+eye = [0.3, 1.5, 4]
+look_at = [0, 0.8, 0]
+vfov_degrees = 55
+lens_diameter = 0.4
+focal_distance = 3.6
+[matte.floor]
+ka = 0.3
+kd = 0.9
+color = [0.4, 0.4, 0.2]
+[matte.ball]
+ka = 0.3
+kd = 0.9
+color = [0.8, 0.1, 0.2]
+[matte.crate]
+ka = 0.3
+kd = 0.9
+color = [0.1, 0.3, 0.6]
+[matte.sail]
+ka = 0.3
+kd = 0.9
+color = [0.2, 0.7, 0.1]
+[matte.pipe]
+ka = 0.3
+kd = 0.9
+color = [0.5, 0.1, 0.5]
+[[plane]]
+point = [0, 0, 0]
+normal = [0.1, 1, 0]
+material = "floor"
+[[sphere]]
+center = [-0.9, 0.7, 0.2]
+radius = 0.7
+material = "ball"
+[[box]]
+lower = [0.4, 0, -0.6]
+upper = [1.2, 1.1, 0.3]
+material = "crate"
+[[triangle]]
+vertices = [[-0.3, 0.1, 1], [0.5, 0.1, 1.2], [0.1, 1.0, 0.7]]
+material = "sail"
+[[cylinder]]
+start = [1.5, 0.1, -0.5]
+end = [1.9, 2.0, -1.5]
+radius = 0.4
+material = "pipe"
+"#;
+
+/// Catches outlines of other objects than those that the centre ray passes, in other colours, at other places, or of
+/// the other section: the first one that it crosses is that of the object, where the device hits it.
+#[test]
+fn the_centre_ray_ends_at_the_outline_of_what_it_hits() {
+    let gpu = Gpu::new();
+    let settings = small("version-4").with_scene(scene_of(OBJECTS));
+    let mut seen = BTreeSet::new();
+    for (column, row) in (0..8_u8).flat_map(|column| (0..6_u8).map(move |row| (column, row))) {
+        let position = [8.0 * f32::from(column) + 3.5, 8.0 * f32::from(row) + 4.5];
+        let diagram = drawn(&gpu, &settings, position).expect("it is drawn");
+        let Some(hit) = diagram.hit else {
+            continue;
+        };
+        let of_name = COLORS.into_iter().find(|(name, _)| *name == diagram.material);
+        let expected = DVec3::from_array(of_name.expect("a material").1);
+        for (outlines, slope) in
+            [(&diagram.outlines_up, diagram.slope.y), (&diagram.outlines_across, diagram.slope.x)]
+        {
+            let (depth, outline) = first_crossing(outlines, slope);
+            let what = format!("{position:?}: {}", diagram.material);
+            assert!((depth / hit.z - 1.0).abs() < 3e-3, "{what} at {}, its outline at {depth}", hit.z);
+            let linear = DVec3::from_array(outline.color.map(|level| f64::from(level).powf(2.2)));
+            let off = linear / linear.max_element() - expected / expected.max_element();
+            assert!(off.abs().max_element() < 0.03, "{what} is drawn in {:?}", outline.color);
+        }
+        seen.insert(diagram.material);
+    }
+    assert_eq!(seen.len(), 5, "only {seen:?} is seen");
+}
+
+/// Where the centre ray crosses an outline first, and which one.
+fn first_crossing(outlines: &[Outline], slope: f64) -> (f64, &Outline) {
+    let crossings = outlines.iter().flat_map(|outline| {
+        let corners = &outline.corners;
+        let edges = (0..corners.len()).map(|number| [corners[number], corners[(number + 1) % corners.len()]]);
+        let crossing = edges.filter_map(|[a, b]| {
+            let [from, to] = [a, b].map(|[depth, aside]| aside - slope * depth);
+            ((from < 0.0) != (to < 0.0)).then(|| a[0] + (b[0] - a[0]) * from / (from - to))
+        });
+        crossing.map(move |depth| (depth, outline))
+    });
+    crossings.min_by(|a, b| a.0.total_cmp(&b.0)).expect("the ray crosses an outline")
+}
+
+/// Catches a depth of field that is drawn elsewhere than where everything is sharp, or that ends before infinity.
+#[test]
+fn the_depth_of_field_is_a_band() {
+    let gpu = Gpu::new();
+    let settings = small("version-4");
+    let diagram = drawn(&gpu, &settings, [20.5, 38.5]).expect("it is drawn");
+    let band = |sharp: [f64; 2]| {
+        let drawing = diagram::draw(&diagram, &Look { sharp: Some(sharp), ..LOOK });
+        let band = areas(&drawing, Role::Sharp)[0];
+        let ends = range(band.iter().map(|corner| corner[0]));
+        let words = texts(&drawing).into_iter().find(|text| text.starts_with("sharp from"));
+        (ends, words.expect("words").to_owned(), drawing.scale, drawing.panes[1].max[0])
+    };
+    let ([near, far], words, scale, _) = band([8.0, 12.0]);
+    let off = [near, far].map(|end| scale.depth(end)).into_iter().zip([8.0, 12.0]);
+    assert!(off.into_iter().all(|(drawn, depth)| (drawn - depth).abs() < 0.01), "{near} to {far}");
+    assert_eq!(words, "sharp from 8.00 to 12.0");
+    let ([_, far], words, _, end) = band([8.0, f64::INFINITY]);
+    assert!(far == end && words == "sharp from 8.00 to infinity", "{words}, drawn to {far} of {end}");
+
+    let mut settings = settings;
+    let sharp = diagram::sharp_depths(&settings).expect("a lens has a depth of field");
+    assert!(sharp[0] < 10.6 && sharp[1] > 10.6, "{sharp:?}");
+    settings.estimator.model = CameraModel::Hole;
+    assert!(diagram::sharp_depths(&settings).is_none(), "a hole has none");
 }
 
 /// Catches a sentence that says the wrong side, or blur where it is sharp; and a drawing without its numbers.

@@ -1,4 +1,4 @@
-//! The viewer under Xvfb: moving the camera, undoing, comparing, saving, and drawing the optics.
+//! The viewer under Xvfb: moving the camera, undoing, comparing and saving.
 
 mod common;
 
@@ -312,75 +312,6 @@ fn the_next_time_everything_is_as_it_was() {
     let version_4 = scene::load("version-4").expect("a built-in scene");
     third.wait_for("the default scene", |viewer| viewer.state.borrow()[0] == version_4.lens.diameter);
     third.close();
-}
-
-/// Catches a drawing of another pixel than the one that was clicked, or of another lens.
-#[test]
-fn the_optics_are_those_of_the_pixel_that_was_clicked() {
-    let viewer = Viewer::start(SIZE, &QUICK);
-    viewer.wait_until_done();
-    viewer.click("Optics", |viewer| viewer.diagram.borrow().is_some());
-    let scene = scene::load("version-4").expect("a built-in scene");
-    let expect = |pixel: [f32; 2], focal_distance: f32| {
-        let half = (0.5 * scene.camera.vfov_radians).tan();
-        let [width, height] = SIZE.map(f64::from);
-        let [x, y] = pixel.map(f64::from);
-        let f = f64::from(focal_distance);
-        let p = [f * half * (2.0 * x - width) / height, f * half * (1.0 - 2.0 * y / height), f];
-        viewer.wait_for("the optics", |viewer| {
-            viewer.diagram.borrow().is_some_and(|(drawn, at)| {
-                drawn == pixel && (0..3).all(|axis| (at[axis] - p[axis]).abs() < 1e-4 * f)
-            })
-        });
-    };
-    expect([400.5, 360.5], scene.lens.focal_distance);
-    viewer.until(
-        "clicking",
-        |viewer| viewer.diagram.borrow().is_some_and(|(pixel, _)| pixel == [650.5, 201.5]),
-        || {
-            viewer.point(Viewer::in_window([650, 201]));
-            viewer.hands("click 1", 0);
-        },
-    );
-    viewer.drag("Focal plane distance", &[0.5, 0.55, 0.6], |viewer| {
-        viewer.state.borrow()[1] > 1.1 * scene.lens.focal_distance
-    });
-    expect([650.5, 201.5], viewer.state.borrow()[1]);
-    viewer.close();
-}
-
-/// Catches a drawing in the viewer that is not the one that the command line saves.
-#[test]
-fn the_drawing_in_the_viewer_is_the_saved_one() {
-    let viewer = Viewer::start(SIZE, &QUICK);
-    viewer.wait_until_done();
-    viewer.click("Optics", |viewer| viewer.controls.borrow().contains_key("Save drawing"));
-    let read = |name: &str| std::fs::read_to_string(viewer.folder.join(name));
-    let saved = |above: &str, file: &str, more: &[&str]| {
-        viewer.click("Save drawing", |_| read(file).is_ok());
-        viewer.wait_for("saving", |viewer| viewer.message.borrow().contains(file));
-        let text = read(file).expect("it is saved");
-        let size = text.split("viewBox=\"0 0 ").nth(1).and_then(|rest| rest.split('"').next());
-        let drawing_size = size.expect("a size").replace(' ', "x");
-        let picture_size = format!("{}x{}", SIZE[0], SIZE[1]);
-        let options =
-            ["diagram", "-q", "-o", "same.svg", "-s", &picture_size, "--drawing-size", &drawing_size];
-        let ran = run(&viewer.folder, &[&options[..], more].concat());
-        assert_eq!(ran.code, 0, "{}", ran.stderr);
-        assert!(
-            read("same.svg").expect("a drawing") == text,
-            "{above} differs from what the command line draws"
-        );
-    };
-    saved("the side view", "lens.svg", &[]);
-    viewer.click("To scale", |_| true);
-    viewer.rest();
-    saved("the view to scale", "lens-2.svg", &["--to-scale"]);
-    viewer.click("Drawing", |viewer| viewer.controls.borrow().contains_key("From above"));
-    viewer.click_once("From above");
-    viewer.rest();
-    saved("the view from above", "lens-3.svg", &["--to-scale", "--from-above"]);
-    viewer.close();
 }
 
 /// Catches a pause that goes on, that shows nothing after a change, or that cannot be ended; and a list of keys

@@ -3,6 +3,7 @@
 
 use super::area::Area;
 use super::keys::Modifiers;
+use super::panel::Pin;
 use super::telemetry;
 use crate::diagram::Diagram;
 use crate::renderer::{Picked, Question};
@@ -29,8 +30,6 @@ pub(super) struct Focus {
     pointer: Option<[f32; 2]>,
     /// The place to bring into focus, until the device has answered.
     wanted: Option<[f32; 2]>,
-    /// The pixel whose optics are drawn, as a fraction of the picture's size. `None` is the middle.
-    pinned: Option<[f32; 2]>,
     /// Where the left button was pressed, while it is held.
     pressed: Option<[f32; 2]>,
     /// The question that is not answered yet, and the settings of the picture that it is about.
@@ -69,7 +68,14 @@ struct Mark {
 
 impl Focus {
     /// Handles mouse and keys over the picture.
-    pub(super) fn take_input(&mut self, ui: &Ui, modifiers: Modifiers, lens: &mut Lens, area: &Area) {
+    pub(super) fn take_input(
+        &mut self,
+        ui: &Ui,
+        modifiers: Modifiers,
+        lens: &mut Lens,
+        pin: &mut Pin,
+        area: &Area,
+    ) {
         let io = ui.io();
         let over_picture = !io.want_capture_mouse && ui.is_mouse_pos_valid(io.mouse_pos);
         let scale = io.display_framebuffer_scale;
@@ -86,7 +92,8 @@ impl Focus {
             && let Some(pressed) = self.pressed.take()
             && (pressed[0] - pointer[0]).hypot(pressed[1] - pointer[1]) <= STILL * scale[0]
         {
-            self.pinned = Some([0, 1].map(|axis| pointer[axis] / area.pixels[axis] as f32));
+            let share = [0, 1].map(|axis| pointer[axis] / area.pixels[axis] as f32);
+            *pin = Pin { share, depth: None };
         }
         if ui.is_mouse_clicked(MouseButton::Right) || (ui.is_key_pressed(Key::F) && !io.want_text_input) {
             self.wanted = self.pointer;
@@ -108,15 +115,14 @@ impl Focus {
         (self.wanted, self.glide) = (None, None);
     }
 
-    /// The next question to the device about this picture, if there is one. `rays` is the number of rays in the drawing
-    /// of the optics, if the drawing is open.
-    pub(super) fn question(&mut self, estimator: &Estimator, rays: Option<u32>) -> Option<Question> {
+    /// The next question to the device about this picture, if there is one. `drawn` has the place whose optics are drawn
+    /// and the number of rays, if the drawing is open.
+    pub(super) fn question(&mut self, estimator: &Estimator, drawn: Option<(Pin, u32)>) -> Option<Question> {
         if self.asked.is_some() {
             return None;
         }
-        let pinned = rays.map(|rays| {
-            let share = self.pinned.unwrap_or([0.5; 2]);
-            let at = |axis: usize| (share[axis] * estimator.size[axis] as f32).floor() + 0.5;
+        let pinned = drawn.map(|(pin, rays)| {
+            let at = |axis: usize| (pin.share[axis] * estimator.size[axis] as f32).floor() + 0.5;
             Question { position: [at(0), at(1)], fan: rays, samples: rays }
         });
         let pinned = pinned.filter(|question| {
@@ -220,9 +226,8 @@ impl Focus {
     }
 
     /// Marks the pinned pixel.
-    pub(super) fn draw_pin(&self, ui: &Ui, area: &Area) {
-        let pinned = self.pinned.unwrap_or([0.5; 2]);
-        let centre = area.in_window([0, 1].map(|axis| pinned[axis] * area.pixels[axis] as f32));
+    pub(super) fn draw_pin(ui: &Ui, pin: Pin, area: &Area) {
+        let centre = area.in_window([0, 1].map(|axis| pin.share[axis] * area.pixels[axis] as f32));
         let list = ui.get_background_draw_list();
         for (radius, color) in [(5.0, [0.0, 0.0, 0.0, 0.6]), (4.0, [1.0, 1.0, 1.0, 0.9])] {
             list.add_circle(centre, radius, color).thickness(1.5).build();

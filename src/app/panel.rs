@@ -7,6 +7,7 @@ use super::message::{Kind, Messages, Offer};
 use super::save_as::{self, Files, SaveAs, absolute};
 use super::typing::Typing;
 use super::zoom_lock::ZoomLock;
+use crate::diagram::{Part, Scale};
 use crate::error::{Error, Result};
 use crate::output::{self, Origin, PictureFormat};
 use crate::scene::{self, ApertureImage, BUILTINS, Builtin, SceneRef};
@@ -70,7 +71,33 @@ pub(super) struct Optics {
     pub(super) shown: Shown,
     /// Whether the section has the same scale everywhere.
     pub(super) to_scale: bool,
+    pub(super) pin: Pin,
+    /// The part of the drawing that is being moved.
+    pub(super) held: Option<HeldPart>,
     pub(super) placed: Placed,
+}
+
+/// The place in the picture whose optics are drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Pin {
+    /// As a fraction of the picture's size.
+    pub(super) share: [f32; 2],
+    /// The depth of the point whose light is drawn, if it was moved. Otherwise the picture shows it there.
+    pub(super) depth: Option<f64>,
+}
+
+/// A part of the drawing that is being moved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct HeldPart {
+    pub(super) part: Part,
+    /// The scale that the drawing had when the part was grasped.
+    pub(super) scale: Scale,
+    /// How far from the part it was grasped, in points.
+    pub(super) beside: [f32; 2],
+    /// The diameter of the opening divided by its half extent in the drawing, when it was grasped.
+    pub(super) diameter_per_half: f64,
+    /// The focal length in mm divided by the distance of the film, when it was grasped.
+    pub(super) mm_per_distance: f64,
 }
 
 /// Which drawing of the optics is shown.
@@ -86,7 +113,15 @@ pub(super) enum Shown {
 
 impl Default for Optics {
     fn default() -> Self {
-        Self { open: false, rays: 9, shown: Shown::Side, to_scale: false, placed: Placed::default() }
+        Self {
+            open: false,
+            rays: 9,
+            shown: Shown::Side,
+            to_scale: false,
+            pin: Pin { share: [0.5; 2], depth: None },
+            held: None,
+            placed: Placed::default(),
+        }
     }
 }
 
@@ -106,6 +141,7 @@ pub(super) type Layout = Vec<(&'static str, [i32; 4])>;
 pub(super) struct State {
     pub(super) settings: Settings,
     initial: Settings,
+    pin: Pin,
 }
 
 pub(super) fn builtin(name: &Path) -> Option<&'static Builtin> {
@@ -120,7 +156,11 @@ impl Panel {
         let opened = options.memory.recent.iter().filter(is_scene).cloned();
         let mut panel = Self {
             initial: options.initial.clone(),
-            accepted: State { settings: settings.clone(), initial: options.initial.clone() },
+            accepted: State {
+                settings: settings.clone(),
+                initial: options.initial.clone(),
+                pin: Optics::default().pin,
+            },
             zoom_lock: ZoomLock::new(&settings.estimator),
             image: settings.estimator.aperture.image.clone(),
             settings,
@@ -196,22 +236,26 @@ impl Panel {
 
     /// The state for undo and redo. The size of the window is not part of it.
     pub(super) fn state(&self) -> State {
-        let mut state = State { settings: self.settings.clone(), initial: self.initial.clone() };
+        let mut state = self.full_state();
         (state.settings.estimator.size, state.initial.estimator.size) = ([1; 2], [1; 2]);
         state
+    }
+
+    fn full_state(&self) -> State {
+        State { settings: self.settings.clone(), initial: self.initial.clone(), pin: self.optics.pin }
     }
 
     /// Restores a state.
     pub(super) fn restore(&mut self, state: State) {
         let size = self.settings.estimator.size;
-        (self.settings, self.initial) = (state.settings, state.initial);
+        (self.settings, self.initial, self.optics.pin) = (state.settings, state.initial, state.pin);
         self.settings.estimator.size = size;
     }
 
     /// Notes that the renderer accepted the settings.
     pub(super) fn accept(&mut self) {
         if self.accepted.settings != self.settings || self.accepted.initial != self.initial {
-            self.accepted = State { settings: self.settings.clone(), initial: self.initial.clone() };
+            self.accepted = self.full_state();
         }
     }
 
@@ -257,6 +301,7 @@ impl Panel {
         self.initial = Settings { samples: settings.samples, ..initial };
         self.image = settings.estimator.aperture.image.clone().or(self.image.take());
         self.settings = settings;
+        self.optics.pin.depth = None;
         self.warn();
         self.offer_scene();
         if builtin(name).is_none() {

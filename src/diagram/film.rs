@@ -45,7 +45,7 @@ pub(super) fn draw(diagram: &Diagram, min: Point, max: Point) -> Pane {
     // Where the light through a point of the aperture falls.
     let falls = |[x, y]: [f64; 2]| place([x * image.blur_radius, -y * image.blur_radius]);
     let is_image = image.openings.len() > 1;
-    for opening in &image.openings {
+    for opening in image.openings.iter().filter(|_| diagram.hit.is_some()) {
         let corners: Vec<Point> = opening.corners.iter().map(|corner| falls(*corner)).collect();
         pane.area(corners.clone(), Role::BlurInside(opening.light));
         if !is_image {

@@ -4,6 +4,7 @@
 //! each in its place on a sheet. The viewer paints that sheet, and [`svg`] writes it to a file, so the two are the same.
 
 mod film;
+mod handle;
 mod outline;
 mod paths;
 mod section;
@@ -11,6 +12,7 @@ mod sheet;
 mod svg;
 mod words;
 
+pub use handle::{Handle, Part};
 pub use outline::Outline;
 pub use paths::{Diagram, ImageSide, Line};
 pub use section::Scale;
@@ -36,6 +38,8 @@ pub struct Look {
     pub to_scale: bool,
     /// The depths between which everything is sharp, if they are to be shown.
     pub sharp: Option<[f64; 2]>,
+    /// A scale to keep, while a part of the drawing is moved. Otherwise the drawing fills its place.
+    pub scale: Option<Scale>,
 }
 
 /// The whole drawing.
@@ -47,6 +51,8 @@ pub struct Drawing {
     pub panes: Vec<Pane>,
     /// Where the section draws which point.
     pub scale: Scale,
+    /// What can be moved by hand.
+    pub handles: Vec<Handle>,
 }
 
 /// The depths between which everything is sharp, for a lens.
@@ -64,6 +70,7 @@ pub fn draw(diagram: &Diagram, look: &Look) -> Drawing {
     let bottom = (height - words_height).max(1.0);
     let film_left = (width - bottom.min(FILM_SHARE * width)).floor();
     let ([above, section, below], scale) = section::draw(diagram, look, [film_left, bottom]);
+    let handles = handle::handles(diagram, look, &scale, [section.min[1], section.max[1]]);
     let mut film = film::draw(diagram, [film_left, 0.0], [width, bottom]);
     film.line([film_left, 0.0], [film_left, bottom], Role::Frame, 1.0);
     let mut words = Pane::new([0.0, bottom], [width, height]);
@@ -73,5 +80,5 @@ pub fn draw(diagram: &Diagram, look: &Look) -> Drawing {
         let y = bottom + 0.5 * MARGIN + (f32::from(number) + 0.5) * LINE;
         words.text([MARGIN, y], Anchor::Start, Role::Text, line);
     }
-    Drawing { size: [width, height], panes: vec![above, section, below, film, words], scale }
+    Drawing { size: [width, height], panes: vec![above, section, below, film, words], scale, handles }
 }

@@ -41,6 +41,10 @@ pub struct Diagram {
     pub focus: Option<(f64, DVec3)>,
     /// The point where the centre ray hits a surface, if it hits one.
     pub hit: Option<DVec3>,
+    /// Whether `hit` is another point on the centre ray than the device found.
+    pub is_moved: bool,
+    /// Whether the distance of the film is free. Otherwise it follows from the focal distance.
+    pub film_is_free: bool,
     /// The name of the material there.
     pub material: String,
     /// The direction of the centre ray, for a depth of one.
@@ -68,6 +72,8 @@ pub struct ImageSide {
     pub film_distance: f64,
     /// The sample point on the film: p'.
     pub p: DVec3,
+    /// How many pixels of the picture a scene unit on the film is. It is negative if the picture is turned by 180 degrees.
+    pub pixels_per_unit: f64,
     /// Light from the visible point, through points on the vertical diameter of the lens, to the film. The lines start
     /// on the lens. They cross where the sharp image of the point would be.
     pub light_up: Vec<Line>,
@@ -101,15 +107,8 @@ impl Diagram {
         let hit = picked.surface.as_ref().map(|surface| local(surface.point));
         let has_lens = estimator.model == CameraModel::ThinLens;
         let focus = has_lens.then(|| (f64::from(estimator.lens.focal_distance), local(picked.focus)));
-        let depths = [focus.map(|(depth, _)| depth), hit.map(|point| point.z)];
-        let (near, far) = depths
-            .into_iter()
-            .flatten()
-            .fold((f64::INFINITY, 0.0_f64), |(near, far), depth| (near.min(depth), far.max(depth)));
-        // If nothing is hit and there is no lens, any scale will do.
-        let reach =
-            if near.is_finite() { BEYOND * far.min(MAX_DEPTH_RATIO * near) } else { camera.film_distance() };
-        let view_plane = VIEW_PLANE_SHARE * if near.is_finite() { near } else { reach };
+        let (near, reach) = extent(focus, hit, camera.film_distance());
+        let view_plane = VIEW_PLANE_SHARE * near;
 
         let line = |ray: &LensRay| -> Line {
             let (origin, direction) = (local(ray.origin), turned(ray.direction));
@@ -135,6 +134,8 @@ impl Diagram {
             q: slope * view_plane,
             focus,
             hit,
+            is_moved: false,
+            film_is_free: !(has_lens && camera.focus_breathing),
             material: picked.surface.as_ref().map_or_else(String::new, |surface| surface.material.clone()),
             slope,
             outlines_up: cut(Section::Up),
@@ -145,23 +146,31 @@ impl Diagram {
             samples: lines(picked.samples()),
             image: ImageSide::without_light(camera.film_distance(), slope),
         };
+        let pixels_per_unit = camera.view_distance_pixels(estimator.size[1]) / camera.film_distance();
+        // The film shows everything upside down, and the picture is upright.
+        let is_turned = estimator.model != CameraModel::Hole || !estimator.hole.upright;
+        diagram.image.pixels_per_unit = if is_turned { -pixels_per_unit } else { pixels_per_unit };
+        // The film position in units of the distance to a corner.
+        let corner = 0.5 * size[0].hypot(size[1]) / camera.view_distance_pixels(estimator.size[1]);
+        let film = [slope.x / corner, slope.y / corner];
+        diagram.image.openings = estimator.aperture.openings(estimator.model, film);
         if let Some(hit) = hit {
-            let pixels_per_unit = camera.view_distance_pixels(estimator.size[1]) / camera.film_distance();
-            diagram.take_light(hit, pixels_per_unit);
-            let upright = estimator.model == CameraModel::Hole && estimator.hole.upright;
-            if upright {
-                diagram.image.blur_radius = -diagram.image.blur_radius;
-            }
-            // The film position in units of the distance to a corner.
-            let corner = 0.5 * size[0].hypot(size[1]) / camera.view_distance_pixels(estimator.size[1]);
-            let film = [slope.x / corner, slope.y / corner];
-            diagram.image.openings = estimator.aperture.openings(estimator.model, film);
+            diagram.take_light(hit);
         }
         diagram
     }
 
+    /// The same drawing with the light of a point at another depth on the centre ray. There may be nothing in the scene.
+    pub fn with_point_at(&self, depth: f64) -> Self {
+        let hit = self.slope * depth;
+        let mut moved = Self { hit: Some(hit), is_moved: true, ..self.clone() };
+        moved.reach = extent(self.focus, Some(hit), self.image.film_distance).1;
+        moved.take_light(hit);
+        moved
+    }
+
     /// Follows light from `hit` through the points of the lens where the primary rays start.
-    fn take_light(&mut self, hit: DVec3, pixels_per_unit: f64) {
+    fn take_light(&mut self, hit: DVec3) {
         let v = self.image.film_distance;
         // A hole does not refract: light goes straight on.
         let power = self.focus.map_or(0.0, |(focal_distance, _)| v.recip() + focal_distance.recip());
@@ -179,10 +188,24 @@ impl Diagram {
         let radius = self.half_aperture[0].max(self.half_aperture[1]);
         let rim = |side: f64| refracted(DVec3::new(0.0, side * radius, 0.0), v).y;
         self.image.blur = (rim(1.0) - rim(-1.0)).abs();
-        // The film shows everything upside down, and the picture is upright.
-        self.image.blur_radius = -0.5 * (rim(1.0) - rim(-1.0)) * pixels_per_unit;
-        self.image.blur_pixels = self.image.blur * pixels_per_unit;
+        self.image.blur_radius = 0.5 * (rim(1.0) - rim(-1.0)) * self.image.pixels_per_unit;
+        self.image.blur_pixels = self.image.blur * self.image.pixels_per_unit.abs();
         self.image.crossing = crossing;
+    }
+}
+
+/// How far the nearer one of focal plane and object is, and at which depth the drawing ends.
+fn extent(focus: Option<(f64, DVec3)>, hit: Option<DVec3>, film_distance: f64) -> (f64, f64) {
+    let depths = [focus.map(|(depth, _)| depth), hit.map(|point| point.z)];
+    let (near, far) = depths
+        .into_iter()
+        .flatten()
+        .fold((f64::INFINITY, 0.0_f64), |(near, far), depth| (near.min(depth), far.max(depth)));
+    // If nothing is hit and there is no lens, any scale will do.
+    if near.is_finite() {
+        (near, BEYOND * far.min(MAX_DEPTH_RATIO * near))
+    } else {
+        (film_distance, film_distance)
     }
 }
 
@@ -191,6 +214,7 @@ impl ImageSide {
         Self {
             film_distance,
             p: -film_distance * slope,
+            pixels_per_unit: 0.0,
             light_up: Vec::new(),
             light_across: Vec::new(),
             crossing: None,

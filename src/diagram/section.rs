@@ -15,7 +15,7 @@ const SLOPE_SHARE: f64 = 0.36;
 /// The share of the side of the film that stays free behind it.
 const BEHIND_FILM: f64 = 1.06;
 /// The thickness of the lens.
-const GLASS: f32 = 7.0;
+pub(super) const GLASS: f32 = 7.0;
 
 /// Where the section draws which point. Behind the lens, depths may have another scale than in front of it. Heights are
 /// measured from the centre ray, which has a scale of its own.
@@ -38,6 +38,12 @@ pub struct Scale {
 }
 
 impl Scale {
+    /// The same scale for another drawing.
+    fn kept(self, diagram: &Diagram, look: &Look) -> Self {
+        let kept = Self { above: look.above, ..self };
+        Self { slope: kept.aside(diagram.slope), ..kept }
+    }
+
     /// Chooses the scale such that the drawing fills this rectangle.
     fn new(diagram: &Diagram, look: &Look, min: Point, max: Point) -> Self {
         let [width, height] = [0, 1].map(|axis| f64::from((max[axis] - min[axis]).max(1.0)));
@@ -96,6 +102,11 @@ impl Scale {
         from_lens / if from_lens < 0.0 { self.behind } else { self.in_front }
     }
 
+    /// How far above or below the centre of the lens a vertical place is.
+    pub fn height_at_lens(&self, y: f32) -> f64 {
+        f64::from((y - self.lens[1]).abs()) / self.fan
+    }
+
     fn place_flat(&self, depth: f64, aside: f64) -> Point {
         let centre = self.slope * depth;
         let up = (aside - centre) * self.fan + centre * self.rise;
@@ -146,7 +157,8 @@ fn light(diagram: &Diagram, above: bool) -> Vec<Line> {
 pub(super) fn draw(diagram: &Diagram, look: &Look, [right, end]: Point) -> ([Pane; 3], Scale) {
     let top = MARGIN + LINE;
     let bottom = (end - 2.0 * LINE - MARGIN).max(top + 1.0);
-    let scale = Scale::new(diagram, look, [MARGIN, top], [right - MARGIN, bottom]);
+    let filling = || Scale::new(diagram, look, [MARGIN, top], [right - MARGIN, bottom]);
+    let scale = look.scale.map_or_else(filling, |scale| scale.kept(diagram, look));
     let [mut above, mut pane, mut below] =
         [[0.0, top], [top, bottom], [bottom, end]].map(|[from, to]| Pane::new([0.0, from], [right, to]));
     for pane in [&mut above, &mut pane, &mut below] {
@@ -187,7 +199,11 @@ pub(super) fn draw(diagram: &Diagram, look: &Look, [right, end]: Point) -> ([Pan
         names.push((within(focal_distance), Role::Focus, name));
     }
     if let Some(hit) = diagram.hit {
-        let name = if diagram.material.is_empty() { "object" } else { &diagram.material };
+        let name = match diagram.material.as_str() {
+            _ if diagram.is_moved => "moved point",
+            "" => "object",
+            material => material,
+        };
         names.push((within(hit.z), Role::Light, format!("{name}: {}", depth(diagram, hit.z))));
     }
     names.push((scale.lens[0], Role::Glass, opening_name(diagram)));

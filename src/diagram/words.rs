@@ -14,6 +14,7 @@ pub fn sentence(diagram: &Diagram) -> String {
             .into();
     };
     let point = match diagram.material.as_str() {
+        _ if diagram.is_moved => format!("a point in this direction at {}", depth(diagram, hit.z)),
         "" => format!("this point at {}", depth(diagram, hit.z)),
         material => format!("this point ({material}, at {})", depth(diagram, hit.z)),
     };

@@ -92,6 +92,7 @@ fn draw_on(instance: &Arc<Instance>, job: &DrawingJob) -> Result<()> {
         above: job.above,
         to_scale: job.to_scale,
         sharp: sharp_depths(&job.settings),
+        scale: None,
     };
     save_drawing(&diagram::draw(&diagram, &look), &job.output)?;
     if !job.quiet {

@@ -6,7 +6,7 @@ use imgui::{DrawListMut, Ui};
 /// The length of a dash and of a gap, in points.
 const DASH: f32 = 5.0;
 
-/// Paints a drawing at the cursor of the window.
+/// Paints a drawing at the cursor of the window. It can be clicked.
 pub(super) fn paint(ui: &Ui, drawing: &Drawing) {
     let corner = ui.cursor_screen_pos();
     let list = ui.get_window_draw_list();
@@ -15,7 +15,7 @@ pub(super) fn paint(ui: &Ui, drawing: &Drawing) {
     }
     drop(list);
     let [width, height] = drawing.size;
-    ui.dummy([width, (height - 1.0).max(0.0)]);
+    ui.invisible_button("##sheet", [width.max(1.0), (height - 1.0).max(1.0)]);
 }
 
 fn paint_pane(list: &DrawListMut<'_>, pane: &Pane, corner: Point) {

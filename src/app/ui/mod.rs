@@ -4,6 +4,7 @@ mod aperture;
 mod compare;
 mod drawing;
 mod files;
+mod grasp;
 mod lens;
 mod message;
 mod numbers;
@@ -116,7 +117,11 @@ impl Panel {
         self.divider(ui, area, &mut layout);
         if !self.hidden {
             let sharp = sharp_depths(&self.settings);
-            match self.optics.draw(ui, status.diagram, sharp, area, &mut layout) {
+            let estimator = &mut self.settings.estimator;
+            let before = (estimator.camera, estimator.lens);
+            let saved = self.optics.draw(ui, status.diagram, sharp, area, estimator, &mut layout);
+            self.zoom_lock.follow(Part::Top, before, estimator);
+            match saved {
                 Some(Ok(file)) => self.messages.say(format!("saved {}", file.display())),
                 Some(Err(error)) => self.messages.fail(error.to_string()),
                 None => {}

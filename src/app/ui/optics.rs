@@ -2,6 +2,7 @@
 
 use super::MARGIN;
 use super::drawing::paint;
+use super::grasp::note_handles;
 use super::numbers::length;
 use super::paper::{Color, FAINT, FRAME, LETTER, Paper, View};
 use super::widgets::{Layout, note_item, note_window, tooltip};
@@ -11,6 +12,7 @@ use crate::app::save_as::{absolute, unused_name};
 use crate::diagram::{self, Diagram, Line, Look};
 use crate::error::Result;
 use crate::output;
+use crate::settings::Estimator;
 use glam::DVec3;
 use imgui::{Condition, StyleColor, Ui, WindowFlags};
 use std::f64::consts::TAU;
@@ -53,12 +55,15 @@ impl Optics {
         diagram: Option<&Diagram>,
         sharp: Option<[f64; 2]>,
         area: &Area,
+        estimator: &mut Estimator,
         layout: &mut Layout,
     ) -> Option<Result<PathBuf>> {
         if !self.open {
             return None;
         }
         let mut saved = None;
+        let moved = diagram.zip(self.pin.depth).map(|(diagram, depth)| diagram.with_point_at(depth));
+        let diagram = moved.as_ref().or(diagram);
         let ([left, _], [_, bottom], [width, height]) = (area.min(), area.max(), area.size());
         let size = [(width - 2.0 * MARGIN).clamp(200.0, 1100.0), (0.46 * height).max(200.0)];
         let (mut open, mut placed) = (true, self.placed);
@@ -98,9 +103,13 @@ impl Optics {
                             above: self.shown == Shown::Above,
                             to_scale: self.to_scale,
                             sharp,
+                            scale: self.held.map(|held| held.scale),
                         };
+                        let corner = ui.cursor_screen_pos();
                         let drawing = diagram::draw(diagram, &look);
                         paint(ui, &drawing);
+                        self.take_hold(ui, diagram, &drawing, corner, estimator);
+                        note_handles(ui, &drawing, corner, layout);
                         if saves {
                             let file = absolute(Path::new(&unused_name(FILE)));
                             saved = Some(output::save_drawing(&drawing, &file).map(|()| file));

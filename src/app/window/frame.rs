@@ -1,6 +1,7 @@
 //! What happens in a frame of the viewer: input, the renderer's settings, and drawing.
 
 use super::super::area::Area;
+use super::super::focus::Focus;
 use super::super::graphics::Answer;
 use super::super::loader::{Loader, Ready};
 use super::super::message::{Kind, Offer};
@@ -100,11 +101,11 @@ impl OpenWindow {
         let camera = &mut self.panel.settings.estimator.camera;
         self.navigate.take_input(ui, modifiers, camera, area);
         let lens = &mut self.panel.settings.estimator.lens;
-        self.focus.take_input(ui, modifiers, lens, area);
+        self.focus.take_input(ui, modifiers, lens, &mut self.panel.optics.pin, area);
         self.focus.advance(lens);
         self.focus.draw(ui, area);
         if self.panel.optics.open && !self.panel.hidden {
-            self.focus.draw_pin(ui, area);
+            Focus::draw_pin(ui, self.panel.optics.pin, area);
         }
         // While an arrow key is held, a slider moves: that is one change.
         let steps = [Key::LeftArrow, Key::RightArrow].into_iter().any(|key| ui.is_key_down(key));
@@ -211,9 +212,10 @@ impl OpenWindow {
         let finished_before = self.graphics.finished();
         let budget = if self.dragging { DRAGGING_BUDGET } else { RESTING_BUDGET };
         let pace = (!self.rests()).then_some(Pace { budget, preview: true });
-        let rays = self.panel.optics.open.then_some(self.panel.optics.rays);
+        let optics = &self.panel.optics;
+        let drawn = optics.open.then_some((optics.pin, optics.rays));
         let can_ask = self.graphics.answers();
-        let question = if can_ask { self.focus.question(&self.panel.shown().estimator, rays) } else { None };
+        let question = if can_ask { self.focus.question(&self.panel.shown().estimator, drawn) } else { None };
         let split = self.panel.held.as_ref().map_or(0.0, |held| held.share * area.pixels[0] as f32);
         self.graphics.draw(image, &mut self.imgui, pace, question, area.corner, split.round() as u32)?;
         if self.focus.is_busy() || self.navigate.is_moving() {

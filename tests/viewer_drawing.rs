@@ -1,0 +1,148 @@
+//! The viewer under Xvfb: the drawing of the optics.
+
+mod common;
+
+use common::run;
+use common::viewer::Viewer;
+use thinlens::scene;
+
+const SIZE: [u16; 2] = [800, 720];
+
+/// A wide open picture of the scene, which is quick.
+const QUICK: [&str; 2] = ["-n", "2"];
+
+/// Catches a drawing of another pixel than the one that was clicked, or of another lens.
+#[test]
+fn the_optics_are_those_of_the_pixel_that_was_clicked() {
+    let viewer = Viewer::start(SIZE, &QUICK);
+    viewer.wait_until_done();
+    viewer.click("Optics", |viewer| viewer.diagram.borrow().is_some());
+    let scene = scene::load("version-4").expect("a built-in scene");
+    let expect = |pixel: [f32; 2], focal_distance: f32| {
+        let half = (0.5 * scene.camera.vfov_radians).tan();
+        let [width, height] = SIZE.map(f64::from);
+        let [x, y] = pixel.map(f64::from);
+        let f = f64::from(focal_distance);
+        let p = [f * half * (2.0 * x - width) / height, f * half * (1.0 - 2.0 * y / height), f];
+        viewer.wait_for("the optics", |viewer| {
+            viewer.diagram.borrow().is_some_and(|(drawn, at)| {
+                drawn == pixel && (0..3).all(|axis| (at[axis] - p[axis]).abs() < 1e-4 * f)
+            })
+        });
+    };
+    expect([400.5, 360.5], scene.lens.focal_distance);
+    viewer.until(
+        "clicking",
+        |viewer| viewer.diagram.borrow().is_some_and(|(pixel, _)| pixel == [650.5, 201.5]),
+        || {
+            viewer.point(Viewer::in_window([650, 201]));
+            viewer.hands("click 1", 0);
+        },
+    );
+    viewer.drag("Focal plane distance", &[0.5, 0.55, 0.6], |viewer| {
+        viewer.state.borrow()[1] > 1.1 * scene.lens.focal_distance
+    });
+    expect([650.5, 201.5], viewer.state.borrow()[1]);
+    viewer.close();
+}
+
+/// Catches a drawing in the viewer that is not the one that the command line saves.
+#[test]
+fn the_drawing_in_the_viewer_is_the_saved_one() {
+    let viewer = Viewer::start(SIZE, &QUICK);
+    viewer.wait_until_done();
+    viewer.click("Optics", |viewer| viewer.controls.borrow().contains_key("Save drawing"));
+    let read = |name: &str| std::fs::read_to_string(viewer.folder.join(name));
+    let saved = |above: &str, file: &str, more: &[&str]| {
+        viewer.click("Save drawing", |_| read(file).is_ok());
+        viewer.wait_for("saving", |viewer| viewer.message.borrow().contains(file));
+        let text = read(file).expect("it is saved");
+        let size = text.split("viewBox=\"0 0 ").nth(1).and_then(|rest| rest.split('"').next());
+        let drawing_size = size.expect("a size").replace(' ', "x");
+        let picture_size = format!("{}x{}", SIZE[0], SIZE[1]);
+        let options =
+            ["diagram", "-q", "-o", "same.svg", "-s", &picture_size, "--drawing-size", &drawing_size];
+        let ran = run(&viewer.folder, &[&options[..], more].concat());
+        assert_eq!(ran.code, 0, "{}", ran.stderr);
+        assert!(
+            read("same.svg").expect("a drawing") == text,
+            "{above} differs from what the command line draws"
+        );
+    };
+    saved("the side view", "lens.svg", &[]);
+    viewer.click("To scale", |_| true);
+    viewer.rest();
+    saved("the view to scale", "lens-2.svg", &["--to-scale"]);
+    viewer.click("Drawing", |viewer| viewer.controls.borrow().contains_key("From above"));
+    viewer.click_once("From above");
+    viewer.rest();
+    saved("the view from above", "lens-3.svg", &["--to-scale", "--from-above"]);
+    viewer.close();
+}
+
+/// Catches a part of the drawing that cannot be moved, that moves something else, or that does not stay under the
+/// pointer; and a drag that is undone in more than one step.
+#[test]
+fn parts_of_the_drawing_are_moved_by_hand() {
+    const PLANE: &str = "Focal plane in the drawing";
+    const RIM: &str = "Rim in the drawing";
+    const FILM: &str = "Film in the drawing";
+    const POINT: &str = "Point in the drawing";
+    let viewer = Viewer::start(SIZE, &QUICK);
+    viewer.wait_until_done();
+    viewer.xdotool("search --class thinlens windowfocus --sync");
+    viewer.click("Optics", |viewer| viewer.controls.borrow().contains_key(PLANE));
+    viewer.rest();
+    let at = |name: &str| viewer.controls.borrow()[name];
+    let places @ [[plane_x, top, _, height], [rim_x, rim_y, width, _], [film_x, ..], [point_x, point_y, ..]] =
+        [PLANE, RIM, FILM, POINT].map(at);
+    let undo = || {
+        viewer.press("ctrl+z");
+        viewer.rest();
+        assert_eq!([PLANE, RIM, FILM, POINT].map(at), places, "one undo takes the drag back");
+    };
+    let [diameter, focal_distance, jitter] = *viewer.state.borrow();
+    let view = viewer.view.borrow().clone();
+    let (lens, axis, level) = (rim_x + width / 2, top + height / 2, top + height / 8);
+    // Each one is grasped a little beside it, and moved half of the way to the lens.
+    let drag = |from: [i32; 2], to: [i32; 2]| {
+        viewer.drag_picture(1, from, to);
+        viewer.rest();
+    };
+
+    drag([plane_x + 3, level], [(plane_x + lens) / 2 + 3, level]);
+    let [same, nearer, _] = *viewer.state.borrow();
+    assert!((nearer / focal_distance - 0.5).abs() < 0.01, "the focal plane is at {nearer}");
+    assert!(same == diameter && *viewer.view.borrow() == view, "only the focal plane moves");
+    undo();
+
+    drag([rim_x, rim_y + 2], [rim_x, (rim_y + axis) / 2 + 2]);
+    let [narrow, same, _] = *viewer.state.borrow();
+    assert!((narrow / diameter - 0.5).abs() < 0.02, "the lens is {narrow} wide");
+    assert!(same == focal_distance && *viewer.view.borrow() == view, "only the rim moves");
+    undo();
+
+    drag([film_x - 3, level], [(film_x + lens) / 2 - 3, level]);
+    let half_tangent = |view: &str| {
+        let degrees = view.split_whitespace().nth(1).and_then(|degrees| degrees.parse::<f64>().ok());
+        (0.5 * degrees.expect("a field of view").to_radians()).tan()
+    };
+    let ratio = half_tangent(&viewer.view.borrow()) / half_tangent(&view);
+    assert!((ratio - 2.0).abs() < 0.05, "the field of view is {} times as large", ratio);
+    assert_eq!(viewer.state.borrow()[1], focal_distance, "the focal plane stays where it is");
+    undo();
+
+    let depth = |file: &str, name: &str| -> f64 {
+        viewer.click("Save drawing", |viewer| viewer.message.borrow().contains(file));
+        let text = std::fs::read_to_string(viewer.folder.join(file)).expect("it is saved");
+        let words = text.split(&format!(">{name}: ")).nth(1).unwrap_or_else(|| panic!("no {name} in {text}"));
+        words.split(' ').next().and_then(|depth| depth.parse().ok()).expect("a depth")
+    };
+    let found = depth("lens.svg", "silver");
+    drag([point_x, point_y], [(point_x + lens) / 2, point_y]);
+    let half_way = depth("lens-2.svg", "moved point");
+    assert!((half_way / found - 0.5).abs() < 0.01, "the point is at {half_way}, and was at {found}");
+    assert_eq!(*viewer.state.borrow(), [diameter, focal_distance, jitter], "the settings stay as they are");
+    undo();
+    viewer.close();
+}
