@@ -168,6 +168,9 @@ pub enum Error {
         /// In pixels from the top.
         y: f32,
     },
+    /// No lens is as sharp and as blurred at two places as was asked for.
+    #[error("no lens does what was asked for: {0}")]
+    NoLens(String),
     /// The validation layer reported problems. Holds how many.
     #[error("the validation layer gave {0} message(s), printed above; please report them as a bug")]
     Validation(usize),
@@ -201,6 +204,7 @@ impl Error {
             | Self::OutOfRange(_)
             | Self::SameFile(_)
             | Self::NothingToFocusOn { .. }
+            | Self::NoLens(_)
             | Self::NoOrigin { .. }
             | Self::UnknownDevice { .. } => 2,
             _ => 1,

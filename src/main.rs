@@ -20,7 +20,9 @@ fn main() -> ExitCode {
 fn run(command: Command) -> Result<()> {
     match command {
         Command::View(args) => view(&args),
-        Command::Render(RenderArgs { from, settings, autofocus, output, stats, device, quiet }) => {
+        Command::Render(args) => {
+            let focusing = args.focusing();
+            let RenderArgs { from, settings, output, stats, device, quiet, .. } = args;
             let settings = output::load(quiet, || match &from {
                 Some(picture) => settings.of_picture(&output::Origin::read(picture)?.arguments),
                 None => settings.for_render(),
@@ -28,7 +30,7 @@ fn run(command: Command) -> Result<()> {
             output::render(&output::Job {
                 settings,
                 from,
-                autofocus,
+                focusing,
                 output,
                 stats,
                 device: device.choice(),

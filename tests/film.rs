@@ -171,12 +171,12 @@ fn spheres(count: usize) -> Settings {
     settings_of(&(LIT.to_owned() + &(0..count).map(sphere).collect::<String>()), [24, 18], 20)
 }
 
-/// Planes, one behind the other.
-fn planes(count: usize) -> Settings {
+/// Planes, one behind the other, and this text of a scene file before them.
+fn planes(before: &str, count: usize) -> Settings {
     let plane = |number: usize| {
         format!("[[plane]]\npoint = [0, 0, -{number}]\nnormal = [0, 0, 1]\nmaterial = \"m\"\n")
     };
-    settings_of(&(LIT.to_owned() + &(0..count).map(plane).collect::<String>()), [24, 18], 20)
+    settings_of(&(LIT.to_owned() + before + &(0..count).map(plane).collect::<String>()), [24, 18], 20)
 }
 
 /// Catches lavapipe's limit of 65,535 loop steps an invocation, beyond which it leaves the loops
@@ -186,7 +186,7 @@ fn many_shapes_lose_no_samples() {
     let gpu = Gpu::new();
     // The farthest of these planes are never seen.
     // Lavapipe has the limit, even where it is used as a GPU that has none.
-    for mut settings in [spheres(3000), planes(if common::as_gpu() { 300 } else { 3000 })] {
+    for mut settings in [spheres(3000), planes("", if common::as_gpu() { 300 } else { 3000 })] {
         let film = film(&gpu, &settings);
         assert!(film.iter().all(|texel| texel[3] == 20.0));
         settings.samples = 8;
@@ -206,9 +206,12 @@ fn what_needs_too_many_steps_is_refused_before_it_is_compiled() {
     // No driver is given this.
     let trace = Shader { name: "trace", spirv: &[] };
     let shaders = Shaders { trace, ..Shaders::default() };
+    // So many lights that the shapes are few enough for every device's buffers.
+    let lights = "[[directional]]\ndirection = [1, 2, 3]\nradiance = 2\n".repeat(3);
+    let settings = planes(&lights, 20_000);
     let error =
-        Renderer::with_shaders(gpu.device(), shaders, &planes(33_000)).err().expect("too many for software");
-    assert!(error.to_string().contains("33000 planes"), "{error}");
+        Renderer::with_shaders(gpu.device(), shaders, &settings).err().expect("too many for software");
+    assert!(error.to_string().contains("20000 planes"), "{error}");
 }
 
 /// Catches a search of the tree that is cut short and taken for a miss. Thousands of triangles, of which

@@ -158,3 +158,137 @@ fn autofocus_puts_the_focal_plane_through_what_the_picture_shows() {
         assert!(!folder.path().join("b.png").exists(), "{argument} leaves a picture");
     }
 }
+
+/// Two squares of light on black, each facing the camera at its own depth, and the pixels of their middles.
+struct Squares {
+    toml: String,
+    depths: [f64; 2],
+    pixels: [[f64; 2]; 2],
+}
+
+const SQUARES_SIZE: [u32; 2] = [160, 96];
+
+impl Squares {
+    fn new(vfov: f64, depths: [f64; 2]) -> Self {
+        let pixels = [[46.3, 40.7], [112.6, 55.1]];
+        let k = 0.5 * f64::from(SQUARES_SIZE[1]) / (0.5 * vfov.to_radians()).tan();
+        let [a, b] = depths;
+        // Such that the lenses are as wide as real ones.
+        let metres = 0.1 / a.min(b);
+        let mut toml = format!(
+            "[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, -1]\nvfov_degrees = {vfov}\nmetres_per_unit = {metres}\nlens_diameter = 0\n\
+             focal_distance = {a}\n[background]\ncolor = [0, 0, 0]\n[ambient]\nradiance = 0\n\
+             [emissive.lamp]\nradiance = 1\n"
+        );
+        for (depth, [x, y]) in depths.into_iter().zip(pixels) {
+            let [x, y] = [(x - 80.0) * depth / k, (48.0 - y) * depth / k];
+            let half = 1.5 * depth / k;
+            toml += &format!(
+                "[[box]]\nlower = [{}, {}, {}]\nupper = [{}, {}, {}]\nmaterial = \"lamp\"\n",
+                x - half,
+                y - half,
+                -depth * 1.0001,
+                x + half,
+                y + half,
+                -depth
+            );
+        }
+        Self { toml, depths, pixels }
+    }
+
+    /// The spread of the light around the middle of each square: the mean of its variances along the two axes.
+    fn spread(&self, gpu: &Gpu, diameter: f32, focal_distance: f32) -> [f64; 2] {
+        let mut settings = settings_of(&self.toml, SQUARES_SIZE, 4096);
+        settings.estimator.lens.diameter = diameter;
+        settings.estimator.lens.focal_distance = focal_distance;
+        let mut renderer = gpu.renderer(&settings);
+        renderer.render(|_| ()).expect("a rendering");
+        let film = renderer.read_film().expect("a film");
+        self.pixels.map(|[x, y]| {
+            let (mut light, mut moments) = (0.0, [[0.0; 2]; 2]);
+            for (row, pixels) in film.chunks(SQUARES_SIZE[0] as usize).enumerate() {
+                for (column, [radiance, ..]) in pixels.iter().enumerate() {
+                    let at = [column as f64 + 0.5 - x, row as f64 + 0.5 - y];
+                    if at[0].abs() < 30.0 {
+                        light += f64::from(*radiance);
+                        for axis in [0, 1] {
+                            moments[axis][0] += f64::from(*radiance) * at[axis];
+                            moments[axis][1] += f64::from(*radiance) * at[axis] * at[axis];
+                        }
+                    }
+                }
+            }
+            let variance = |[first, second]: [f64; 2]| second / light - (first / light).powi(2);
+            0.5 * (variance(moments[0]) + variance(moments[1]))
+        })
+    }
+
+    /// The diameters of the circles of confusion that a rendering shows. A disc of the diameter `c` has the variance
+    /// `c^2 / 16` along each axis, and variances of blurs add up.
+    fn blurs(&self, gpu: &Gpu, diameter: f32, focal_distance: f32) -> [f64; 2] {
+        let sharp = self.spread(gpu, 0.0, 1.0);
+        let blurred = self.spread(gpu, diameter, focal_distance);
+        [0, 1].map(|square| 4.0 * (blurred[square] - sharp[square]).max(0.0).sqrt())
+    }
+}
+
+/// Catches a lens that is focused on the wrong one of two places, blurs the other over the radius instead of the diameter,
+/// or by the distance along the ray, and a range of sharpness whose middle is the mean of its ends: the blurs are measured
+/// in what is rendered.
+#[test]
+fn a_lens_follows_from_what_two_places_should_look_like() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let gpu = Gpu::new();
+    let chosen = |squares: &Squares, arguments: &[String]| -> [f32; 2] {
+        std::fs::write(folder.path().join("squares.toml"), &squares.toml).expect("a file");
+        let all =
+            ["render", "squares.toml", "-s", "160x96", "-n", "1", "-o", "a.png", "--stats", "a.json", "-q"];
+        let words = arguments.iter().map(String::as_str);
+        let outcome = run(folder.path(), &all.into_iter().chain(words).collect::<Vec<_>>());
+        assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""), "{arguments:?}");
+        let text = std::fs::read_to_string(folder.path().join("a.json")).expect("figures");
+        let figures: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        ["lens_diameter", "focal_distance"].map(|name| figures[name].as_f64().expect("a number") as f32)
+    };
+    let scenes = [
+        (Squares::new(30.0, [5.0, 9.0]), 20.0),
+        (Squares::new(24.0, [400.0, 150.0]), 12.0),
+        (Squares::new(50.0, [0.8, 30.0]), 16.5),
+    ];
+    for (squares, pixels) in &scenes {
+        let [[ax, ay], [bx, by]] = squares.pixels;
+        let [diameter, focal_distance] =
+            chosen(squares, &[format!("--sharp-at={ax},{ay}"), format!("--blur-at={bx},{by},{pixels}")]);
+        let [sharp, blurred] = squares.blurs(&gpu, diameter, focal_distance);
+        println!("asked for 0 and {pixels} px: {sharp:.2} and {blurred:.2} px are rendered");
+        assert!(sharp < 0.5 && (blurred / pixels - 1.0).abs() < 0.02, "{sharp} px and {blurred} px");
+
+        let [diameter, focal_distance] = chosen(
+            squares,
+            &[format!("--sharp-from={bx},{by}"), format!("--sharp-to={ax},{ay}"), "--tolerance=9".into()],
+        );
+        let [a, b] = squares.depths;
+        assert!((f64::from(focal_distance) * (a + b) / (2.0 * a * b) - 1.0).abs() < 1e-4, "{focal_distance}");
+        let blurs = squares.blurs(&gpu, diameter, focal_distance);
+        println!("asked for 9 px at both: {blurs:.2?} px are rendered");
+        assert!(blurs.iter().all(|blur| (blur / 9.0 - 1.0).abs() < 0.02), "{blurs:?}");
+    }
+
+    for (arguments, message) in [
+        (["--sharp-at=46,40", "--blur-at=46,41,20"], "both places are"),
+        (["--sharp-from=46,40", "--sharp-to=46,41"], "both places are"),
+        (["--sharp-at=46,40", "--blur-at=112,55,4000"], "no lens is wider than f/0.5"),
+        (["--sharp-at=3,3", "--blur-at=112,55,4"], "focused at infinity"),
+        (["--sharp-at=460,40", "--blur-at=112,55,4"], "must be within"),
+        (["--sharp-at=46,40", "--blur-at=112,55"], "X,Y,PIXELS"),
+        (["--sharp-at=46,40", "--blur-at=112,55,-3"], "X,Y,PIXELS"),
+        (["--sharp-at=46,40", "--f-number=2"], "--f-number"),
+        (["--sharp-at=46,40", "-q"], "--blur-at"),
+    ] {
+        std::fs::write(folder.path().join("squares.toml"), &scenes[0].0.toml).expect("a file");
+        let all = ["render", "squares.toml", "-s", "160x96", "-o", "b.png"];
+        let outcome = run(folder.path(), &[&all[..], &arguments].concat());
+        assert!(outcome.code == 2 && outcome.stderr.contains(message), "{arguments:?}: {}", outcome.stderr);
+        assert!(!folder.path().join("b.png").exists(), "{arguments:?} leave a picture");
+    }
+}

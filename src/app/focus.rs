@@ -1,14 +1,16 @@
 //! Questions to the device about three pixels: the one under the pointer, the one whose optics are drawn, and the one
-//! to focus on. Also moves the focal plane to what was chosen.
+//! that was clicked. Also moves the focal plane to what was chosen, and keeps it there while the camera moves.
 
 use super::area::Area;
-use super::keys::Modifiers;
-use super::panel::Pin;
-use super::telemetry;
+use super::guide::Guide;
+use super::panel::{Panel, Pin};
+use super::words::{self, length};
+use super::{navigate, telemetry};
 use crate::diagram::Diagram;
-use crate::renderer::{Picked, Question};
-use crate::scene::{Lens, MAX_LENGTH, MIN_LENGTH};
+use crate::renderer::{Picked, Question, Surface};
+use crate::scene::{Camera, CameraModel, Lens, MAX_LENGTH, MIN_LENGTH};
 use crate::settings::Estimator;
+use glam::DVec3;
 use imgui::{Key, MouseButton, Ui};
 use std::time::{Duration, Instant};
 
@@ -20,6 +22,8 @@ const MARK: Duration = Duration::from_millis(1200);
 const NUDGE: f32 = 1.02;
 /// A press and release that are at most this far apart, in points, are a click and not a drag.
 const STILL: f32 = 3.0;
+/// The focal plane goes through a point if it is this near to it, relative to its distance.
+const IN_PLANE: f64 = 1e-4;
 /// The radius of the mark, in points.
 const MARK_RADIUS: f32 = 13.0;
 
@@ -28,8 +32,10 @@ const MARK_RADIUS: f32 = 13.0;
 pub(super) struct Focus {
     /// The position of the pointer, if it is over the picture.
     pointer: Option<[f32; 2]>,
-    /// The place to bring into focus, until the device has answered.
-    wanted: Option<[f32; 2]>,
+    /// The place that was clicked, and what for, until the device has answered.
+    wanted: Option<([f32; 2], Purpose)>,
+    /// The point of the scene that was focused on last. The focal plane follows it for as long as it goes through it.
+    target: Option<DVec3>,
     /// Where the left button was pressed, while it is held.
     pressed: Option<[f32; 2]>,
     /// The question that is not answered yet, and the settings of the picture that it is about.
@@ -39,6 +45,19 @@ pub(super) struct Focus {
     diagram: Option<Answer<Diagram>>,
     glide: Option<Glide>,
     mark: Option<Mark>,
+}
+
+/// Why the device is asked about a place that was clicked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Purpose {
+    /// To focus on it.
+    Focus,
+    /// To say what is there.
+    Say,
+    /// To turn the camera to it.
+    LookAt,
+    /// To go on with the [`Guide`].
+    Guide,
 }
 
 /// An answer, with its question and the settings of the picture that it is about.
@@ -68,14 +87,7 @@ struct Mark {
 
 impl Focus {
     /// Handles mouse and keys over the picture.
-    pub(super) fn take_input(
-        &mut self,
-        ui: &Ui,
-        modifiers: Modifiers,
-        lens: &mut Lens,
-        pin: &mut Pin,
-        area: &Area,
-    ) {
+    pub(super) fn take_input(&mut self, ui: &Ui, panel: &mut Panel, area: &Area) {
         let io = ui.io();
         let over_picture = !io.want_capture_mouse && ui.is_mouse_pos_valid(io.mouse_pos);
         let scale = io.display_framebuffer_scale;
@@ -92,14 +104,25 @@ impl Focus {
             && let Some(pressed) = self.pressed.take()
             && (pressed[0] - pointer[0]).hypot(pressed[1] - pointer[1]) <= STILL * scale[0]
         {
-            let share = [0, 1].map(|axis| pointer[axis] / area.pixels[axis] as f32);
-            *pin = Pin { share, depth: None };
+            if panel.guide.is_some() {
+                self.wanted = Some((pointer, Purpose::Guide));
+            } else {
+                let share = [0, 1].map(|axis| pointer[axis] / area.pixels[axis] as f32);
+                panel.optics.pin = Pin { share, depth: None };
+                if !panel.optics.open && self.wanted.is_none() {
+                    self.wanted = Some((pointer, Purpose::Say));
+                }
+            }
+        }
+        if panel.guide.is_none() && ui.is_mouse_double_clicked(MouseButton::Left) {
+            self.wanted = Some((pointer, Purpose::LookAt));
         }
         if ui.is_mouse_clicked(MouseButton::Right) || (ui.is_key_pressed(Key::F) && !io.want_text_input) {
-            self.wanted = self.pointer;
+            self.wanted = Some((pointer, Purpose::Focus));
         }
-        if modifiers.ctrl && io.mouse_wheel != 0.0 {
+        if io.key_ctrl && io.mouse_wheel != 0.0 {
             self.glide = None;
+            let lens = &mut panel.settings.estimator.lens;
             let distance = lens.focal_distance * NUDGE.powf(io.mouse_wheel);
             lens.focal_distance = distance.clamp(MIN_LENGTH, MAX_LENGTH);
         }
@@ -107,12 +130,33 @@ impl Focus {
 
     /// Brings a place of the picture into focus. The position is in physical pixels.
     pub(super) fn send_to(&mut self, position: [f32; 2]) {
-        self.wanted = Some(position);
+        self.wanted = Some((position, Purpose::Focus));
     }
 
     /// Stops the focal plane where it is.
     pub(super) fn stop(&mut self) {
         (self.wanted, self.glide) = (None, None);
+    }
+
+    /// Forgets what was focused on: it is not part of another scene.
+    pub(super) fn leave_scene(&mut self) {
+        self.stop();
+        self.target = None;
+    }
+
+    /// Keeps the focal plane on the point that was focused on, if the camera has moved from `before` and the focal plane
+    /// went through the point until then.
+    pub(super) fn follow(&mut self, before: &Camera, panel: &mut Panel) {
+        let Estimator { camera, lens, .. } = &mut panel.settings.estimator;
+        let place = |camera: &Camera| [camera.eye, camera.look_at, camera.up];
+        let Some(target) = self.target.filter(|_| panel.follows && place(before) != place(camera)) else {
+            return;
+        };
+        let [was, is] = [before, camera].map(|camera| camera.frame().axial_depth(camera.eye, target));
+        let distance = self.glide.as_mut().map_or(&mut lens.focal_distance, |glide| &mut glide.to);
+        if is > f64::from(MIN_LENGTH) && (f64::from(*distance) - was).abs() <= IN_PLANE * was.abs() {
+            *distance = (is as f32).min(MAX_LENGTH);
+        }
     }
 
     /// The next question to the device about this picture, if there is one. `drawn` has the place whose optics are drawn
@@ -131,7 +175,8 @@ impl Focus {
         let pointer = self.pointer.map(Question::at).filter(|question| {
             self.under_pointer.as_ref().is_none_or(|answer| !answer.answers(question, estimator))
         });
-        let question = self.wanted.map(Question::at).or(pinned).or(pointer)?;
+        let wanted = self.wanted.map(|(position, _)| Question::at(position));
+        let question = wanted.or(pinned).or(pointer)?;
         self.asked = Some((question, estimator.clone()));
         Some(question)
     }
@@ -141,32 +186,106 @@ impl Focus {
         self.asked = None;
     }
 
-    /// Handles the answer of the device. `None` means that it could not answer.
-    pub(super) fn answer(&mut self, picked: Option<Picked>, lens: &Lens) {
-        let (Some((question, estimator)), Some(picked)) = (self.asked.take(), picked) else {
-            return;
-        };
+    /// Handles the answer of the device, and returns what to say about it: an error if
+    /// it cannot be done. No answer means that the device could not answer.
+    pub(super) fn answer(
+        &mut self,
+        picked: Option<Picked>,
+        panel: &mut Panel,
+    ) -> Option<Result<String, String>> {
+        let ((question, estimator), picked) = (self.asked.take()?, picked?);
         if question.samples > 0 {
             let known = Diagram::new(&estimator, &picked);
             if let Some((_, p)) = known.focus {
                 log::trace!("{} {:?}: p at {p}", telemetry::DIAGRAM, question.position);
             }
             self.diagram = Some(Answer { known, question, estimator });
-            return;
+            return None;
         }
-        let asked = Some(question.position);
-        if self.wanted.is_some() && asked == self.wanted {
+        let purpose = self.wanted.filter(|(position, _)| *position == question.position);
+        let said = purpose.and_then(|(_, purpose)| {
             self.wanted = None;
-            let found = picked.surface.as_ref().map(|surface| surface.depth as f32);
-            self.mark =
-                Some(Mark { at: picked.question.position, since: Instant::now(), found: found.is_some() });
-            if let Some(to) = found {
-                let to = to.clamp(MIN_LENGTH, MAX_LENGTH);
-                self.glide = Some(Glide { from: lens.focal_distance, to, since: Instant::now() });
-                log::debug!("focusing at {to}");
+            self.act(purpose, &picked, panel)
+        });
+        self.under_pointer = Some(Answer { known: picked, question, estimator });
+        said
+    }
+
+    /// Does what the place was clicked for, and returns what to say.
+    fn act(
+        &mut self,
+        purpose: Purpose,
+        picked: &Picked,
+        panel: &mut Panel,
+    ) -> Option<Result<String, String>> {
+        let surface = picked.surface.as_ref();
+        match purpose {
+            Purpose::Focus => {
+                self.mark = Some(Mark {
+                    at: picked.question.position,
+                    since: Instant::now(),
+                    found: surface.is_some(),
+                });
+                self.focus_on(surface, panel)
+            }
+            Purpose::Say => Some(Ok(format!(
+                "{}. Press O to see the way of its light.",
+                words::place(&panel.settings, surface)
+            ))),
+            Purpose::LookAt => {
+                let Some(surface) = surface else {
+                    return Some(Err("There is only the background: nothing to orbit around.".into()));
+                };
+                let before = panel.settings.estimator.camera;
+                navigate::look_at(&mut panel.settings.estimator.camera, surface.point);
+                self.follow(&before, panel);
+                None
+            }
+            Purpose::Guide => {
+                let guide = panel.guide.take()?;
+                if guide == Guide::Focus {
+                    return self.act(Purpose::Focus, picked, panel);
+                }
+                self.glide = None;
+                let depth = surface.map_or(f64::INFINITY, |surface| surface.depth);
+                let (next, said) = guide.take_click(depth, &mut panel.settings);
+                panel.guide = next;
+                said
             }
         }
-        self.under_pointer = Some(Answer { known: picked, question, estimator });
+    }
+
+    /// Sends the focal plane to a surface, or for the background to the hyperfocal distance.
+    fn focus_on(&mut self, surface: Option<&Surface>, panel: &Panel) -> Option<Result<String, String>> {
+        let Estimator { model, lens, .. } = &panel.settings.estimator;
+        if *model != CameraModel::ThinLens {
+            return Some(Err(
+                "This camera has no lens, and so nothing to focus. Choose a thin lens for that.".into(),
+            ));
+        }
+        self.target = surface.map(|surface| surface.point);
+        let (to, said) = match surface {
+            Some(surface) => (surface.depth, None),
+            None if lens.diameter == 0.0 => {
+                return Some(
+                    Ok("The lens is a point, so everything is sharp wherever it is focused.".into()),
+                );
+            }
+            None => {
+                let hyperfocal = panel.settings.hyperfocal_distance();
+                let said = format!(
+                    "The background is infinitely far away. The lens is focused at the hyperfocal distance, {}: \
+                     everything from {} to infinity is sharp.",
+                    length(hyperfocal),
+                    length(0.5 * hyperfocal)
+                );
+                (hyperfocal, Some(Ok(said)))
+            }
+        };
+        let to = (to as f32).clamp(MIN_LENGTH, MAX_LENGTH);
+        self.glide = Some(Glide { from: lens.focal_distance, to, since: Instant::now() });
+        log::debug!("focusing at {to}");
+        said
     }
 
     /// Moves the focal plane on, for the time that has passed.
@@ -194,7 +313,7 @@ impl Focus {
         let centre = area.in_window(*at);
         let fade = 1.0 - since.elapsed().as_secs_f32() / MARK.as_secs_f32();
         let (color, text) =
-            if *found { ([1.0, 0.85, 0.3], None) } else { ([1.0, 0.4, 0.35], Some("nothing to focus on")) };
+            if *found { ([1.0, 0.85, 0.3], None) } else { ([0.55, 0.75, 1.0], Some("infinitely far away")) };
         let with_alpha = |alpha: f32| [color[0], color[1], color[2], alpha];
         let list = ui.get_background_draw_list();
         list.add_circle(centre, MARK_RADIUS, with_alpha(fade)).thickness(2.0).num_segments(32).build();

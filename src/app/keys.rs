@@ -1,18 +1,22 @@
 //! Keys that work wherever the pointer is, and the list of all keys.
 
 use super::ui::Action;
-use imgui::{Condition, Key, Ui};
+use imgui::{Condition, Io, Key, Ui};
+use winit::event::WindowEvent;
+use winit::keyboard::{Key as WinitKey, ModifiersState, NamedKey};
 
 /// What the mouse and the keys do, as shown to the user.
-const LIST: [(&str, &str); 21] = [
+const LIST: [(&str, &str); 23] = [
     ("Right click, F", "focus on what is under the pointer"),
     ("Ctrl + wheel", "move the focal plane"),
-    ("Click", "draw the optics of this pixel"),
+    ("Click", "say what is there; while Optics is open, draw its optics"),
+    ("Double click", "look there, and orbit around it"),
     ("Drag", "orbit around what the camera looks at"),
     ("Shift + drag, middle drag", "pan"),
     ("Wheel", "come nearer or go away"),
     ("W A S D, Q E", "fly forward, left, back, right; down, up"),
     ("Home", "the scene's own camera"),
+    ("V", "view all: move away until all of the scene is in the picture"),
     ("O", "optics"),
     ("C", "compare: hold this picture on the left, or release it"),
     ("P", "pause, and go on"),
@@ -28,28 +32,40 @@ const LIST: [(&str, &str); 21] = [
     ("?, F1", "this list"),
 ];
 
-/// The modifier keys. imgui knows only their state at the start of a frame. If Ctrl is released in the frame in which
-/// its letter is pressed, as happens when frames are slow, that state would miss it.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Modifiers {
-    pub(super) ctrl: bool,
-    pub(super) shift: bool,
-    last: [bool; 2],
-}
+/// A key that has no meaning here.
+const SEPARATOR: Key = Key::ScrollLock;
+
+/// The modifier keys that are held, as winit reports them.
+#[derive(Default)]
+pub(super) struct Modifiers(ModifiersState);
 
 impl Modifiers {
-    /// The modifiers of this frame: those that are held now, or were held in the frame before.
-    pub(super) fn take(&mut self, ui: &Ui) -> Self {
-        let io = ui.io();
-        let now = [io.key_ctrl, io.key_shift];
-        let [ctrl, shift] = [0, 1].map(|key| now[key] || self.last[key]);
-        *self = Self { ctrl, shift, last: now };
-        *self
+    /// Has imgui handle the release of a modifier in a later frame than the keys that were pressed before it. imgui
+    /// knows only the modifiers that are held after all events of a frame. When frames are slow, Ctrl+A would be a
+    /// plain A.
+    pub(super) fn take(&mut self, event: &WindowEvent, io: &mut Io) {
+        let held = match event {
+            WindowEvent::ModifiersChanged(held) => held.state(),
+            WindowEvent::KeyboardInput { event, .. } if !event.state.is_pressed() => {
+                self.0.difference(match event.logical_key {
+                    WinitKey::Named(NamedKey::Control) => ModifiersState::CONTROL,
+                    WinitKey::Named(NamedKey::Shift) => ModifiersState::SHIFT,
+                    _ => return,
+                })
+            }
+            _ => return,
+        };
+        if !held.contains(self.0) {
+            // imgui handles one change of a key per frame, and what comes after the second change waits as well.
+            io.add_key_event(SEPARATOR, true);
+            io.add_key_event(SEPARATOR, false);
+        }
+        self.0 = held;
     }
 }
 
 /// The action of the key that was pressed, if it has one.
-pub(super) fn pressed(ui: &Ui, modifiers: Modifiers) -> Option<Action> {
+pub(super) fn pressed(ui: &Ui) -> Option<Action> {
     let io = ui.io();
     if io.want_text_input {
         return None;
@@ -59,8 +75,8 @@ pub(super) fn pressed(ui: &Ui, modifiers: Modifiers) -> Option<Action> {
     if pressed(Key::F1) || io.peek_input_characters().contains('?') {
         return Some(Action::Keys);
     }
-    let chosen = if modifiers.ctrl {
-        let [undo, save] = if modifiers.shift {
+    let chosen = if io.key_ctrl {
+        let [undo, save] = if io.key_shift {
             [Action::Redo, Action::SaveScene]
         } else {
             [Action::Undo, Action::SavePicture]
@@ -76,6 +92,7 @@ pub(super) fn pressed(ui: &Ui, modifiers: Modifiers) -> Option<Action> {
             (Key::P, Action::Pause),
             (Key::H, Action::Hide),
             (Key::Home, Action::ResetCamera),
+            (Key::V, Action::ViewAll),
         ];
         plain.into_iter().find(|(key, _)| pressed(*key))
     };

@@ -27,6 +27,8 @@ pub struct Memory {
     pub panel_width: Option<f32>,
     /// The sections of the panel that were opened or closed, and whether they are open.
     pub folds: BTreeMap<String, bool>,
+    /// Whether the focal distance stays as it is while the camera moves, and does not follow what was focused on.
+    pub focus_stays: bool,
 }
 
 impl Memory {

@@ -5,6 +5,7 @@ mod clipboard;
 mod display;
 mod focus;
 mod graphics;
+mod guide;
 mod history;
 mod keys;
 mod loader;
@@ -17,6 +18,7 @@ pub mod telemetry;
 mod typing;
 mod ui;
 mod window;
+mod words;
 mod zoom_lock;
 
 pub use memory::Memory;

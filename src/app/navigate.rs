@@ -2,8 +2,8 @@
 //! flight.
 
 use super::area::Area;
-use super::keys::Modifiers;
 use crate::scene::{Camera, MAX_LENGTH};
+use crate::settings::Estimator;
 use glam::{DQuat, DVec3};
 use imgui::{Key, MouseButton, Ui};
 
@@ -15,6 +15,8 @@ const DOLLY: f64 = 0.9;
 const FLIGHT: f64 = 0.6;
 /// The smallest angle between the line of sight and straight up or down, in radians.
 const POLE: f64 = 0.02;
+/// What is finite fills this share of the picture's width or height when all of it is framed.
+const FILL: f64 = 0.9;
 /// The mouse has to move this far, in points, before a press becomes a drag.
 const STILL: f32 = 3.0;
 
@@ -40,8 +42,11 @@ pub(super) struct Navigate {
 
 impl Navigate {
     /// Handles mouse and keys, and moves the camera.
-    pub(super) fn take_input(&mut self, ui: &Ui, modifiers: Modifiers, camera: &mut Camera, area: &Area) {
+    pub(super) fn take_input(&mut self, ui: &Ui, estimator: &mut Estimator, area: &Area) {
         let io = ui.io();
+        // Right and up in the picture are left and down in the world if the picture is upside down.
+        let side = if estimator.is_upside_down() { -1.0 } else { 1.0 };
+        let camera = &mut estimator.camera;
         let over_picture = !io.want_capture_mouse;
         for button in [MouseButton::Left, MouseButton::Middle] {
             if over_picture && self.held.is_none() && ui.is_mouse_clicked(button) {
@@ -53,8 +58,8 @@ impl Navigate {
                 let [x, y] = ui.mouse_drag_delta_with_threshold(*button, 0.0);
                 *drags |= x.hypot(y) > STILL;
                 if *drags {
-                    let [x, y] = [x, y].map(f64::from);
-                    if *button == MouseButton::Middle || modifiers.shift {
+                    let [x, y] = [x, y].map(|points| side * f64::from(points));
+                    if *button == MouseButton::Middle || io.key_shift {
                         pan(camera, [x, y], area.size()[1]);
                     } else {
                         orbit(camera, [-TURN * x, -TURN * y]);
@@ -65,10 +70,10 @@ impl Navigate {
                 self.held = None;
             }
         }
-        if over_picture && io.mouse_wheel != 0.0 && !modifiers.ctrl {
+        if over_picture && io.mouse_wheel != 0.0 && !io.key_ctrl {
             dolly(camera, DOLLY.powf(f64::from(io.mouse_wheel)));
         }
-        let keys = !io.want_text_input && !modifiers.ctrl && !io.key_alt;
+        let keys = !io.want_text_input && !io.key_ctrl && !io.key_alt;
         let mut way = DVec3::ZERO;
         for ((key, towards), flies) in FLYING.iter().zip(&mut self.flying) {
             *flies |= ui.is_key_pressed_no_repeat(*key);
@@ -78,6 +83,7 @@ impl Navigate {
             }
         }
         if way != DVec3::ZERO {
+            way *= DVec3::new(side, side, 1.0);
             fly(camera, (way * FLIGHT * f64::from(io.delta_time.min(0.1))).to_array());
         }
     }
@@ -86,6 +92,31 @@ impl Navigate {
     pub(super) fn is_moving(&self) -> bool {
         self.flying.contains(&true) || self.held.is_some_and(|(_, drags)| drags)
     }
+}
+
+/// Turns the camera to a point, which it orbits from then on.
+pub(super) fn look_at(camera: &mut Camera, point: DVec3) {
+    place(camera, camera.eye, point);
+}
+
+/// Moves the camera along its line of sight and sideways, so that the picture has all of the scene that is finite.
+pub(super) fn frame_all(estimator: &mut Estimator) {
+    let [width, height] = estimator.size.map(f64::from);
+    let bounds = estimator.scene.shapes.iter().filter_map(|of| of.shape.bounds());
+    let Some([lower, upper]) = bounds.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]) else {
+        return;
+    };
+    let (camera, center, half) = (&mut estimator.camera, 0.5 * (lower + upper), 0.5 * (upper - lower));
+    let frame = camera.frame();
+    let highest = FILL * (0.5 * camera.vfov_radians).tan();
+    let widest = highest * width / height;
+    let distance = (0..8).map(|corner| {
+        let side = |bit: u32| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
+        let corner = half * DVec3::new(side(0), side(1), side(2));
+        let aside = (corner.dot(frame.u()).abs() / widest).max(corner.dot(frame.v()).abs() / highest);
+        corner.dot(frame.w()) + aside.max(0.1 * half.length())
+    });
+    place(camera, center + distance.fold(0.0, f64::max) * frame.w(), center);
 }
 
 /// Places the camera there, unless it could not see from that place.

@@ -2,6 +2,7 @@
 
 use super::Options;
 use super::area::Placed;
+use super::guide::Guide;
 use super::memory::Memory;
 use super::message::{Kind, Messages, Offer};
 use super::save_as::{self, Files, SaveAs, absolute};
@@ -51,6 +52,10 @@ pub(super) struct Panel {
     pub(super) paused: bool,
     /// Whether the picture is to be saved once it has all of its points.
     pub(super) save_when_done: bool,
+    /// Whether the focal plane follows what was focused on while the camera moves.
+    pub(super) follows: bool,
+    /// What the next clicks on the picture are for, if the user is guided.
+    pub(super) guide: Option<Guide>,
     pub(super) keys: bool,
     /// The width of the panel in points, as the user has set it.
     pub(super) width: f32,
@@ -174,6 +179,8 @@ impl Panel {
             held: None,
             paused: false,
             save_when_done: false,
+            follows: !options.memory.focus_stays,
+            guide: None,
             keys: false,
             width: options.memory.panel_width.unwrap_or(WIDTH),
             hidden: false,
@@ -231,6 +238,7 @@ impl Panel {
             optics: self.optics.open,
             panel_width: Some(self.width),
             folds: self.folds.clone(),
+            focus_stays: !self.follows,
         }
     }
 

@@ -4,7 +4,7 @@ mod settings;
 
 use crate::error::Result;
 use crate::scene::{self, BUILTINS, SceneRef};
-use crate::settings::{DEFAULT_SAMPLES, DeviceChoice, Place, Settings, Sweep, Value, list, size};
+use crate::settings::{DEFAULT_SAMPLES, DeviceChoice, Focusing, Place, Settings, Sweep, Value, list, size};
 use clap::{ArgAction, Args, CommandFactory, Parser, Subcommand};
 pub use settings::SettingsArgs;
 use std::ffi::OsString;
@@ -12,6 +12,9 @@ use std::path::{Path, PathBuf};
 
 /// The default f-numbers of a sweep, from clearly blurred to sharp.
 const SWEPT_F_NUMBERS: [f64; 4] = [2.8, 5.6, 11.0, 32.0];
+
+/// The options that give the lens in another way than by places of the picture.
+const LENS: [&str; 4] = ["autofocus", "focal-distance", "lens-diameter", "f-number"];
 
 /// The command line.
 #[derive(Debug, Parser)]
@@ -96,7 +99,21 @@ pub struct RenderArgs {
         value_parser = parse_place,
         conflicts_with = "focal-distance"
     )]
-    pub autofocus: Option<Place>,
+    autofocus: Option<Place>,
+    /// Choose the lens that is focused on what the picture shows at this pixel; --blur-at gives its width
+    #[arg(long, value_name = "X,Y", value_parser = parse_place, requires = "blur_at", conflicts_with_all = LENS)]
+    sharp_at: Option<Place>,
+    /// With --sharp-at: what the picture shows at this pixel is blurred over so many pixels
+    #[arg(long, value_name = "X,Y,PIXELS", value_parser = parse_blur, requires = "sharp_at")]
+    blur_at: Option<(Place, f32)>,
+    /// Choose the lens with which everything between what the picture shows here and at --sharp-to is blurred over the
+    /// tolerance at most
+    #[arg(long, value_name = "X,Y", value_parser = parse_place, requires = "sharp_to", conflicts_with_all = LENS,
+        conflicts_with_all = ["sharp_at", "blur_at"])]
+    sharp_from: Option<Place>,
+    /// With --sharp-from: where the sharp range ends
+    #[arg(long, value_name = "X,Y", value_parser = parse_place, requires = "sharp_from")]
+    sharp_to: Option<Place>,
     /// The file to save the picture to: .png (8-bit sRGB) or .exr (linear f32: R, G, B, and the samples per
     /// pixel as count)
     #[arg(short, long, value_name = "OUT.png|OUT.exr")]
@@ -287,6 +304,16 @@ impl DeviceArgs {
     }
 }
 
+impl RenderArgs {
+    /// What the lens follows from, if it follows from what the picture shows.
+    pub fn focusing(&self) -> Option<Focusing> {
+        let blur = self.sharp_at.zip(self.blur_at);
+        let blur = blur.map(|(sharp, (blurred, pixels))| Focusing::Blur { sharp, blurred, pixels });
+        let range = self.sharp_from.zip(self.sharp_to).map(|(from, to)| Focusing::Range { from, to });
+        blur.or(range).or(self.autofocus.map(Focusing::On))
+    }
+}
+
 impl SweepArgs {
     /// The value that changes from picture to picture.
     pub fn sweep(&self) -> Sweep {
@@ -337,6 +364,17 @@ fn parse_place(text: &str) -> Result<Place, String> {
         Some(Place::At([x.trim().parse().ok()?, y.trim().parse().ok()?]))
     };
     parse().ok_or_else(|| "a place is X,Y in pixels from the upper left corner, such as 320,240".into())
+}
+
+fn parse_blur(text: &str) -> Result<(Place, f32), String> {
+    let parse = || {
+        let (place, pixels) = text.rsplit_once(',')?;
+        let pixels = pixels.trim().parse().ok().filter(|pixels| *pixels > 0.0 && *pixels < 1e6)?;
+        Some((parse_place(place).ok()?, pixels))
+    };
+    parse().ok_or_else(|| {
+        "it is X,Y,PIXELS: a place and a blur of more than 0 pixels, such as 320,240,20".into()
+    })
 }
 
 fn parse_size(text: &str) -> Result<[u32; 2], String> {

@@ -18,7 +18,7 @@ pub use scene::{EnvironmentBuffer, SceneCounts, SceneData};
 pub use shape::ShapeRecord;
 
 use crate::interface::{GROUP_SIZE, constant, sampler};
-use crate::scene::{CameraModel, Hole};
+use crate::scene::CameraModel;
 use crate::settings::{Estimator, Sampler, Settings};
 use bytemuck::{Pod, Zeroable};
 
@@ -227,21 +227,19 @@ impl Camera {
         // A film point s at the distance v behind a hole sees through the point l of the hole along l - s. On the view
         // plane, s / v is -q, or q if the picture is turned upright. So this is the equation of a lens with -v for
         // the focal distance.
-        let (diameter, inverse_focal_distance, turned) = match estimator.model {
-            CameraModel::ThinLens => (estimator.lens.diameter, estimator.lens.focal_distance.recip(), false),
-            CameraModel::Pinhole => (0.0, 0.0, false),
-            CameraModel::Hole => {
-                let Hole { diameter, upright } = estimator.hole;
-                (diameter, -camera.film_distance().recip() as f32, !upright)
-            }
+        let (diameter, inverse_focal_distance) = match estimator.model {
+            CameraModel::ThinLens => (estimator.lens.diameter, estimator.lens.focal_distance.recip()),
+            CameraModel::Pinhole => (0.0, 0.0),
+            CameraModel::Hole => (estimator.hole.diameter, -camera.film_distance().recip() as f32),
         };
+        let view_distance = if estimator.is_upside_down() { -view_distance } else { view_distance };
         Self {
             eye: estimator.scene.on_device(camera.eye).to_array(),
             lens_radius: 0.5 * diameter,
             u: frame.u().as_vec3().to_array(),
             inverse_focal_distance,
             v: frame.v().as_vec3().to_array(),
-            inverse_view_distance: (if turned { -view_distance } else { view_distance }).recip() as f32,
+            inverse_view_distance: view_distance.recip() as f32,
             w: frame.w().as_vec3().to_array(),
             jitter: estimator.jitter,
         }

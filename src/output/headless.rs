@@ -5,7 +5,7 @@ use super::{PictureFormat, Stats, say, write_picture};
 use crate::error::{Error, Result};
 use crate::pending_file::{PendingFile, keep_apart};
 use crate::renderer::{Question, Renderer};
-use crate::settings::{DeviceChoice, Place, Settings, quoted};
+use crate::settings::{DeviceChoice, Focusing, Place, Settings, quoted};
 use crate::vulkan::{Device, Instance};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -17,8 +17,8 @@ pub struct Job {
     pub settings: Settings,
     /// The picture that the settings are from, if they are from one.
     pub from: Option<PathBuf>,
-    /// The place of the picture to focus on, in place of the focal distance of the settings.
-    pub autofocus: Option<Place>,
+    /// What the lens follows from, in place of the lens of the settings.
+    pub focusing: Option<Focusing>,
     /// The file: `.png` for 8-bit sRGB, `.exr` for linear values and counts.
     pub output: PathBuf,
     /// Where to write [`Stats`], if anywhere.
@@ -59,7 +59,7 @@ pub fn render_instead(settings: Settings, device: DeviceChoice, why: &str) -> Re
     let job = Job {
         settings,
         from: None,
-        autofocus: None,
+        focusing: None,
         output: output.clone(),
         stats: None,
         device,
@@ -87,15 +87,16 @@ pub(super) fn position(what: &str, settings: &Settings, place: Place) -> Result<
     Ok([x, y])
 }
 
-/// The settings, with the focal plane at the depth of what lies at a place of the picture.
-fn focus(renderer: &mut Renderer, settings: &Settings, place: Place) -> Result<Settings> {
-    let position @ [x, y] = position("autofocus", settings, place)?;
-    let Some(surface) = renderer.pick(Question::at(position))?.and_then(|picked| picked.surface) else {
-        return Err(Error::NothingToFocusOn { x, y });
-    };
-    let mut focused = settings.clone();
-    focused.estimator.lens.focal_distance = surface.depth as f32;
-    Ok(focused)
+/// The settings with the lens that was asked for.
+fn focus(renderer: &mut Renderer, settings: &Settings, focusing: Focusing) -> Result<Settings> {
+    settings.focused(focusing, |place| {
+        let position @ [x, y] = position("the place to focus on", settings, place)?;
+        match renderer.pick(Question::at(position))?.and_then(|picked| picked.surface) {
+            Some(surface) => Ok(surface.depth),
+            None if matches!(focusing, Focusing::On(_)) => Err(Error::NothingToFocusOn { x, y }),
+            None => Ok(f64::INFINITY),
+        }
+    })
 }
 
 fn render_on(instance: &Arc<Instance>, job: &Job, format: PictureFormat) -> Result<()> {
@@ -106,8 +107,8 @@ fn render_on(instance: &Arc<Instance>, job: &Job, format: PictureFormat) -> Resu
     let [width, height] = job.settings.estimator.size;
     let mut renderer = Renderer::new(&device, &job.settings)?;
     let mut settings = job.settings.clone();
-    if let Some(place) = job.autofocus {
-        settings = focus(&mut renderer, &settings, place)?;
+    if let Some(focusing) = job.focusing {
+        settings = focus(&mut renderer, &settings, focusing)?;
         renderer.set(&settings)?;
     }
     if let Some(warning) = settings.estimator.too_coarse() {

@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::passes::AdaptiveBuffers;
-use crate::scene::{self, CameraModel, SceneRef};
+use crate::scene::{self, SceneRef};
 use crate::settings::{Estimator, Settings};
 use crate::vulkan::{Device, Image, Recording};
 use std::sync::Arc;
@@ -89,7 +89,7 @@ impl Seen {
         Self {
             scene: estimator.scene.clone(),
             camera: estimator.focused_camera(),
-            upside_down: estimator.model == CameraModel::Hole && !estimator.hole.upright,
+            upside_down: estimator.is_upside_down(),
         }
     }
 }

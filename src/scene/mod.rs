@@ -21,6 +21,7 @@ mod shape;
 mod stage;
 mod texture;
 mod toml;
+mod two_depths;
 mod view;
 
 pub use aperture::*;

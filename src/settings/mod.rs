@@ -54,6 +54,29 @@ pub enum Place {
     At([f32; 2]),
 }
 
+/// A lens that follows from what the picture shows at some places.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Focusing {
+    /// Focused on what is at this place.
+    On(Place),
+    /// Focused on what is at the first place, and so wide that what is at the second is blurred over so many pixels.
+    Blur {
+        /// The place to focus on.
+        sharp: Place,
+        /// The place to blur.
+        blurred: Place,
+        /// The diameter of the circle of confusion there, in pixels.
+        pixels: f32,
+    },
+    /// Everything between what is at the two places is blurred over no more than the tolerance.
+    Range {
+        /// Where the range begins.
+        from: Place,
+        /// Where the range ends.
+        to: Place,
+    },
+}
+
 /// The device to render on.
 #[derive(Debug, Clone, Default)]
 pub struct DeviceChoice {
@@ -122,6 +145,11 @@ impl Estimator {
     /// diameter is 0.
     pub fn f_number(&self) -> f64 {
         self.camera.f_number(self.lens.diameter)
+    }
+
+    /// Whether the picture is turned by half a turn, as it falls on the film behind a hole.
+    pub fn is_upside_down(&self) -> bool {
+        self.model == CameraModel::Hole && !self.hole.upright
     }
 
     /// A warning if f32 is too coarse for this picture. Devices compute with f32 from the middle of the scene, and its
@@ -204,6 +232,35 @@ impl Settings {
         };
         settings.show(view.overlay);
         settings
+    }
+
+    /// These settings with the lens that was asked for. `depth_at` gives the depth of what the picture shows at a place,
+    /// which is infinite for the background.
+    ///
+    /// # Errors
+    /// Those of `depth_at`, and [`Error::NoLens`].
+    pub fn focused(
+        &self,
+        focusing: Focusing,
+        mut depth_at: impl FnMut(Place) -> Result<f64>,
+    ) -> Result<Self> {
+        let mut settings = self.clone();
+        let Estimator { camera, lens, model, size: [_, height], .. } = &mut settings.estimator;
+        let chosen = match focusing {
+            Focusing::On(place) => {
+                lens.focal_distance = depth_at(place)? as f32;
+                return Ok(settings);
+            }
+            Focusing::Blur { sharp, blurred, pixels } => {
+                camera.lens_for_blur(depth_at(sharp)?, depth_at(blurred)?, pixels.into(), *height)
+            }
+            Focusing::Range { from, to } => {
+                camera.lens_for_range(depth_at(from)?, depth_at(to)?, self.tolerance_pixels(), *height)
+            }
+        };
+        *lens = chosen.map_err(Error::NoLens)?;
+        *model = CameraModel::ThinLens;
+        Ok(settings)
     }
 
     /// The files that these settings were read from, each with its description for messages.

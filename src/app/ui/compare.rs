@@ -1,9 +1,9 @@
 //! The comparison of a held picture with the current one: the line between them and its labels.
 
-use super::numbers::length;
 use super::widgets::{Layout, note_item};
 use crate::app::area::Area;
 use crate::app::panel::{Held, Panel};
+use crate::app::words::length;
 use crate::scene::CameraModel;
 use crate::settings::Settings;
 use imgui::{Condition, MouseCursor, StyleVar, Ui, WindowFlags};

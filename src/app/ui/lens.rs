@@ -1,10 +1,11 @@
 //! The part of the panel for the lens, the ideal pinhole or the hole.
 
-use super::numbers::length;
 use super::widgets::{Layout, note_item, tooltip};
+use crate::app::guide::Guide;
 use crate::app::panel::Panel;
+use crate::app::words::length;
 use crate::scene::{CameraModel, FOCAL_DISTANCES};
-use crate::settings::{Part, Settings};
+use crate::settings::Part;
 use imgui::Ui;
 
 /// The f-numbers of the third stops, as they are engraved on lenses. Every third one is a full stop and has a button.
@@ -79,13 +80,6 @@ impl Panel {
         );
         ui.same_line();
         ui.text(format!("at {}", length(hyperfocal)));
-        if let Some([of_lens, at_iso_100]) = exposure_values(&self.settings) {
-            ui.text(format!("exposure value {of_lens:.1}, at ISO 100 {at_iso_100:.1}"));
-            tooltip(
-                ui,
-                "log2(N^2 / t), where N is the f-number and t the shutter time in seconds. The second number is for the same brightness with film of ISO 100: full sun is about 15, a lit room about 6.",
-            );
-        }
     }
 
     /// Draws a button for each full stop, and two that go on by a third of a stop.
@@ -124,15 +118,27 @@ impl Panel {
             ui.same_line();
         }
         ui.new_line();
+        for (name, guide, help) in [
+            (
+                "Sharp and blurred",
+                Guide::blur(),
+                "Chooses the focal plane and the f-number for you: click what should be sharp, and then what should be blurred over so many pixels.",
+            ),
+            (
+                "Sharp range",
+                Guide::range(),
+                "Chooses the focal plane and the f-number for you: click the nearest and the farthest thing that should be sharp.",
+            ),
+        ] {
+            if ui.button_with_size(name, [half, 0.0]) {
+                self.guide = Some(guide);
+            }
+            note_item(ui, name, layout);
+            tooltip(ui, help);
+            ui.same_line();
+        }
+        ui.new_line();
     }
-}
-
-/// The exposure value of lens and shutter, and that of film of ISO 100 with the same brightness. `None` for a lens that
-/// lets in no light.
-fn exposure_values(settings: &Settings) -> Option<[f64; 2]> {
-    let estimator = &settings.estimator;
-    let of_lens = (estimator.f_number().powi(2) / f64::from(estimator.shutter)).log2();
-    of_lens.is_finite().then(|| [of_lens, of_lens - (f64::from(settings.view.iso) / 100.0).log2()])
 }
 
 /// The nearest f32 that is not nearer than this distance, within the range of focal distances.

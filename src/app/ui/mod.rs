@@ -6,6 +6,7 @@ mod drawing;
 mod files;
 mod grasp;
 mod lens;
+mod light;
 mod message;
 mod numbers;
 mod optics;
@@ -18,6 +19,7 @@ mod tolerance;
 mod widgets;
 
 use super::area::Area;
+use super::guide::Guide;
 use super::message::Offer;
 use super::panel::{Panel, builtin};
 use super::telemetry;
@@ -60,6 +62,8 @@ pub(super) enum Action {
     Reset,
     /// Restore the position of the camera that the scene was opened with.
     ResetCamera,
+    /// Move the camera until all of the scene is in the picture.
+    ViewAll,
     /// Undo the last change.
     Undo,
     /// Redo the change that was undone last.
@@ -129,6 +133,7 @@ impl Panel {
             let optics = self.optics.open.then_some(&self.optics.placed);
             overlay::legend(ui, &self.settings, area, optics);
         }
+        self.guide = self.guide.and_then(|guide| guide.draw(ui, area));
         action = self.messages.draw(ui, area, &mut layout).map(Action::Accept).or(action);
         if layout != self.layout {
             for (name, [x, y, width, height]) in &layout {
@@ -171,6 +176,8 @@ impl Panel {
 
     fn buttons(&mut self, ui: &Ui, status: &Status<'_>, layout: &mut Layout) -> Option<Action> {
         let mut action = None;
+        // Four buttons fit in a row of the narrowest panel.
+        let _spacing = ui.push_style_var(imgui::StyleVar::ItemSpacing([6.0, 8.0]));
         let mut ask = |name, asks, help| {
             if button(ui, name, help, layout) {
                 action = Some(asks);
@@ -183,13 +190,16 @@ impl Panel {
             "Focuses on what is in the middle of the picture. To focus on something else, right-click it, or point at it and press F. Ctrl and the wheel move the focal plane.",
         );
         ask("Reset", Action::Reset, "Restores the settings that the scene was opened with.");
-        tick(
-            ui,
-            "Optics",
-            "Draws what the lens does with the light of one pixel. Click the picture to choose the pixel.",
-            &mut self.optics.open,
-            layout,
-        );
+        let help = "Focuses on what you click next in the picture, as a right click does at once.";
+        if button(ui, "Pick focus", help, layout) {
+            self.guide = Some(Guide::Focus);
+        }
+        ui.same_line();
+        let help = "Draws what the lens does with the light of one pixel (O). Click the picture to choose the pixel.";
+        let is_open = self.optics.open.then(|| pressed(ui));
+        let clicked = button(ui, "Optics", help, layout);
+        self.optics.open ^= clicked;
+        drop(is_open);
         for (name, asks, help) in [
             ("Undo", Action::Undo, "Undoes the last change (Ctrl+Z)."),
             ("Redo", Action::Redo, "Redoes the change that was undone last (Ctrl+Shift+Z)."),
@@ -240,12 +250,20 @@ impl Panel {
         });
         section(ui, "Viewpoint", false, folds, layout, |layout| {
             self.rows(ui, Part::Viewpoint, layout);
+            tick(
+                ui,
+                "Focus follows",
+                "While the camera moves, the focal plane stays on what you focused on last. Without this, its distance stays as it is.",
+                &mut self.follows,
+                layout,
+            );
+            ui.same_line();
             let help = "Restores the position of the camera that the scene was opened with (Home), and nothing else.";
             if button(ui, "Reset camera", help, layout) {
                 action = Some(Action::ResetCamera);
             }
         });
-        section(ui, "Light", false, folds, layout, |layout| self.rows(ui, Part::Light, layout));
+        section(ui, "Light", false, folds, layout, |layout| self.light(ui, layout));
         section(ui, "Sampling", false, folds, layout, |layout| self.rows(ui, Part::Sampling, layout));
         section(ui, "View", false, folds, layout, |layout| self.rows(ui, Part::View, layout));
         section(ui, "Files", false, folds, layout, |layout| {

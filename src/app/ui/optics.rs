@@ -3,12 +3,12 @@
 use super::MARGIN;
 use super::drawing::paint;
 use super::grasp::note_handles;
-use super::numbers::length;
 use super::paper::{Color, FAINT, FRAME, LETTER, Paper, View};
 use super::widgets::{Layout, note_item, note_window, tooltip};
 use crate::app::area::Area;
 use crate::app::panel::{Optics, Shown};
 use crate::app::save_as::{absolute, unused_name};
+use crate::app::words::length;
 use crate::diagram::{self, Diagram, Line, Look};
 use crate::error::Result;
 use crate::output;

@@ -5,8 +5,9 @@ use super::super::focus::Focus;
 use super::super::graphics::Answer;
 use super::super::loader::{Loader, Ready};
 use super::super::message::{Kind, Offer};
+use super::super::panel::Panel;
 use super::super::ui::{Action, Status};
-use super::super::{keys, telemetry};
+use super::super::{keys, navigate, telemetry};
 use super::{FRAMES_AFTER_EVENT, OpenWindow, TOOLTIP_DELAY, area};
 use crate::error::{Error, Result};
 use crate::renderer::Pace;
@@ -53,7 +54,11 @@ impl OpenWindow {
         self.frames_to_draw = self.frames_to_draw.saturating_sub(1);
         let answer = self.graphics.wait_for_frame(self.dragging)?;
         if let Some(Answer(picked)) = answer {
-            self.focus.answer(picked, &self.panel.settings.estimator.lens);
+            match self.focus.answer(picked, &mut self.panel) {
+                Some(Ok(said)) => self.panel.messages.say(said),
+                Some(Err(failed)) => self.panel.messages.fail(failed),
+                None => {}
+            }
         }
         let Some(image) = self.graphics.acquire()? else {
             self.frames_to_draw += 1;
@@ -95,14 +100,13 @@ impl OpenWindow {
                 .map(|name| format!("loading {} ...", name.display()))
                 .or(preparing),
         };
-        let modifiers = self.modifiers.take(ui);
-        let action = self.panel.draw(ui, &status, area).or_else(|| keys::pressed(ui, modifiers));
+        let camera = self.panel.settings.estimator.camera;
+        let action = self.panel.draw(ui, &status, area).or_else(|| keys::pressed(ui));
         keys::help(ui, &mut self.panel.keys);
-        let camera = &mut self.panel.settings.estimator.camera;
-        self.navigate.take_input(ui, modifiers, camera, area);
-        let lens = &mut self.panel.settings.estimator.lens;
-        self.focus.take_input(ui, modifiers, lens, &mut self.panel.optics.pin, area);
-        self.focus.advance(lens);
+        self.navigate.take_input(ui, &mut self.panel.settings.estimator, area);
+        self.focus.take_input(ui, &mut self.panel, area);
+        self.focus.follow(&camera, &mut self.panel);
+        self.focus.advance(&mut self.panel.settings.estimator.lens);
         self.focus.draw(ui, area);
         if self.panel.optics.open && !self.panel.hidden {
             Focus::draw_pin(ui, self.panel.optics.pin, area);
@@ -189,7 +193,7 @@ impl OpenWindow {
                 log::debug!("{} {}", telemetry::LOADED, name.display());
                 self.panel.show(&name, &content);
                 self.panel.settings.estimator.size = size;
-                self.focus.stop();
+                self.focus.leave_scene();
                 prepared
             }
             Some(Ready::Opened { opened: Err(error @ Error::DeviceLost { .. }), .. }) => return Err(error),
@@ -258,7 +262,8 @@ impl OpenWindow {
                 self.focus.send_to(self.panel.settings.estimator.size.map(|extent| 0.5 * extent as f32));
             }
             Action::Reset => self.panel.reset(),
-            Action::ResetCamera => self.panel.reset_camera(),
+            Action::ResetCamera => self.move_camera(Panel::reset_camera),
+            Action::ViewAll => self.move_camera(|panel| navigate::frame_all(&mut panel.settings.estimator)),
             Action::Undo => self.history.undo().into_iter().for_each(|state| self.panel.restore(state)),
             Action::Redo => self.history.redo().into_iter().for_each(|state| self.panel.restore(state)),
             Action::Compare => self.compare()?,
@@ -308,6 +313,13 @@ impl OpenWindow {
             Kind::Picture => Action::SavePicture,
             Kind::Scene => Action::SaveScene,
         })
+    }
+
+    /// Moves the camera at once. The focal plane follows what was focused on.
+    fn move_camera(&mut self, mover: impl FnOnce(&mut Panel)) {
+        let camera = self.panel.settings.estimator.camera;
+        mover(&mut self.panel);
+        self.focus.follow(&camera, &mut self.panel);
     }
 
     /// Holds the picture on the left for comparison, or releases it.

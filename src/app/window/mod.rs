@@ -147,6 +147,7 @@ impl ApplicationHandler for Viewer {
                     (open.frames_to_draw + more).clamp(FRAMES_AFTER_EVENT, MAX_FRAMES_TO_DRAW);
                 open.unshown_since.get_or_insert_with(Instant::now);
                 let scale = open.platform.hidpi_factor();
+                open.modifiers.take(&event, open.imgui.io_mut());
                 let event: Event<()> = Event::WindowEvent { window_id, event };
                 open.platform.handle_event(open.imgui.io_mut(), &open.window, &event);
                 if open.platform.hidpi_factor() != scale {
