@@ -18,8 +18,9 @@ layout(set = 0, binding = BINDING_SURFACE_IMAGE, rgba32f) writeonly uniform imag
 
 layout(push_constant, std430) uniform GeometryPush {
     Camera camera;
-    uvec2 extent;
+    vec3 w; // backwards along the optical axis
     uint top; // the first row of pixels of this dispatch
+    uvec2 extent;
 } push;
 
 void main() {
@@ -39,8 +40,8 @@ void main() {
         vec3 normal = project_onto_surface(hit.surface, position, error);
         float side = dot(normal, ray.direction) > 0.0 ? -1.0 : 1.0;
         normal = side * (hit.surface.shading_normal == vec3(0.0) ? normal : hit.surface.shading_normal);
-        seen.xyz = normal * mat3(push.camera.u, push.camera.v, push.camera.w);
-        seen.w = hit.distance * -dot(ray.direction, push.camera.w);
+        seen.xyz = normal * mat3(push.camera.u, push.camera.v, push.w);
+        seen.w = hit.distance * -dot(ray.direction, push.w);
     }
     imageStore(surface_image, ivec2(pixel), seen);
 }

@@ -62,6 +62,7 @@ void main() {
     bool given_up = false;
     Hit hit = intersect_scene(ray, given_up);
     Camera camera = push.camera;
-    vec3 focus = camera.eye + (q.x * camera.u + q.y * camera.v - camera.w) / camera.inverse_focal_distance;
+    vec3 centre_ray = q.x * camera.u + q.y * camera.v - camera.w;
+    vec3 focus = camera.eye + centre_ray / inverse_depth_in_focus(camera, q);
     picked[i] = PickedRay(ray.origin, given_up ? MISS : hit.distance, ray.direction, hit.material, focus);
 }

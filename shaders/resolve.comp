@@ -85,7 +85,7 @@ void main() {
     if (HAS_OVERLAY == 1u) {
         ivec2 site = min(site_of(ivec2(cell)), ivec2(push.extent) - 1);
         float error = HAS_MOMENTS == 1u ? relative_error(film, imageLoad(film_moments, site).r) : 0.0;
-        shown = overlay_color(push.overlay, shown, film.w, error, imageLoad(surface_image, site));
+        shown = overlay_color(push.overlay, vec2(site), shown, film.w, error, imageLoad(surface_image, site));
     }
     vec4 color = vec4(srgb_encode(shown), 1.0);
     color = push.blue_first == 1u ? color.bgra : color;

@@ -106,6 +106,8 @@ pub mod constant {
         MAX_TREE_STEPS,
         /// The kind of aperture: one of [`aperture`](super::aperture).
         APERTURE,
+        /// Whether the lens is shifted or tilted.
+        HAS_MOVEMENTS,
         /// Where the range of the first kind of shapes ends in the list. The constants of the other kinds have the
         /// numbers after this one, so this must be the last name.
         SHAPE_END,

@@ -30,7 +30,18 @@ fn twins() -> Vec<Twin> {
         twin!(
             "Camera",
             Camera,
-            [eye, lens_radius, u, inverse_focal_distance, v, inverse_view_distance, w, jitter]
+            [
+                eye,
+                lens_radius,
+                u,
+                inverse_focal_distance,
+                v,
+                inverse_view_distance,
+                w,
+                jitter,
+                tilt,
+                inverse_focal_length
+            ]
         ),
         twin!("Lattice", Lattice, [extent, origin, stride, first_row, row_step, row_count]),
         twin!("TracePush", TracePush, [camera, lattice, seed, max_bounces, first_sample, sample_count]),
@@ -52,16 +63,17 @@ fn twins() -> Vec<Twin> {
                 cats_eye_shift,
                 max_cats_eye_shift,
                 cells,
-                shutter
+                shutter,
+                axis
             ]
         ),
         twin!("ApertureBuffer", ApertureBuffer, [shape, edges]),
         twin!(
             "OverlayScale",
             OverlayScale,
-            [kind, full_scale, blur, inverse_image_distance, inverse_focal_distance]
+            [kind, full_scale, blur, inverse_image_distance, inverse_focal_distance, gradient, axis]
         ),
-        twin!("GeometryPush", GeometryPush, [camera, extent, top]),
+        twin!("GeometryPush", GeometryPush, [camera, w, top, extent]),
         twin!("PickPush", PickPush, [camera, extent, position, fan, samples, seed]),
         twin!("PickedRay", PickedRay, [origin, distance, direction, material, focus]),
         twin!("ResolvePush", ResolvePush, [extent, preview_stride, exposure, overlay, blue_first]),

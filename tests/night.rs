@@ -139,7 +139,18 @@ fn nothing_is_brighter_than_it_is_reckoned_with() {
         let oval = Aperture { anamorphic: 2.0, blades: 3, ..Aperture::default() };
         let bladed = Estimator { aperture: oval, ..whole.clone() };
         let pinhole = Estimator { model: CameraModel::Pinhole, ..whole.clone() };
-        for estimator in [whole.clone(), large, hole(true), hole(false), wide, bladed, pinhole] {
+        // Tilts in three directions, of a lens that is not small against its distance from the film, and a shift.
+        let tilted = |degrees: f32, direction: f32, shift: [f32; 2]| {
+            let mut of = whole.clone();
+            (of.lens.tilt_degrees, of.lens.tilt_direction_degrees) = (degrees, direction);
+            (of.camera.lens_shift_mm, of.camera.focus_breathing) = (shift, direction > 0.0);
+            of.camera.focus_breathing &= of.camera.can_focus(&of.lens).is_ok();
+            of
+        };
+        let movements = [(20.0, 0.0, [0.0; 2]), (-30.0, 0.0, [0.0, 7.0]), (12.0, 120.0, [-4.0, 3.0])]
+            .map(|of| tilted(of.0, of.1, of.2));
+        let others = [whole.clone(), large, hole(true), hole(false), wide, bladed, pinhole];
+        for estimator in others.into_iter().chain(movements) {
             let most = excess(&estimator);
             // Each mirror can add something of its own.
             let mirrors =

@@ -9,7 +9,7 @@ use glam::DVec3;
 use thinlens::reference::{Reference, tone};
 use thinlens::renderer::Renderer;
 use thinlens::scene::{CameraModel, Hole, Overlay, SceneRef, Shape, Tolerance};
-use thinlens::settings::Settings;
+use thinlens::settings::{Estimator, Settings};
 
 /// What each pixel's middle sees, as the oracle says: the depth, and the normal in the world's frame.
 fn surfaces(settings: &Settings) -> Vec<(f64, DVec3)> {
@@ -50,15 +50,31 @@ fn mix(from: [f64; 3], to: [f64; 3], share: f64) -> [f64; 3] {
     [0, 1, 2].map(|channel| from[channel] + share * (to[channel] - from[channel]))
 }
 
+/// The depth in which a pixel is in focus: a tilt about the horizontal axis makes 1 / F - y / J of 1 / F, where y is the
+/// slope of the centre ray, and J = f / sin(tilt) the depth of the hinge line below the lens.
+fn depth_in_focus(estimator: &Estimator, [_, y]: [u32; 2]) -> f64 {
+    let Estimator { camera, lens, .. } = estimator;
+    let (focal_distance, (sine, cosine)) =
+        (f64::from(lens.focal_distance), f64::from(lens.tilt_degrees).to_radians().sin_cos());
+    let film_distance = estimator.focused_camera().film_distance();
+    let f = cosine / (1.0 / film_distance + 1.0 / focal_distance);
+    let rows = 0.5 * f64::from(estimator.size[1]) - f64::from(y) - 0.5;
+    let rise = f64::from(camera.lens_shift_mm[1]) / camera.mm_per_unit();
+    let slope =
+        rows / estimator.focused_camera().view_distance_pixels(estimator.size[1]) + rise / film_distance;
+    (1.0 / focal_distance - slope * sine / f).recip()
+}
+
 /// What an overlay should show of a pixel, by the definitions of the panel's help.
 fn expected(
     settings: &Settings,
     overlay: Overlay,
+    pixel: [u32; 2],
     texel: [f32; 4],
     (depth, normal): (f64, DVec3),
 ) -> [f64; 3] {
     let estimator = &settings.estimator;
-    let focal_distance = f64::from(estimator.lens.focal_distance);
+    let focal_distance = depth_in_focus(estimator, pixel);
     let k = estimator.focused_camera().view_distance_pixels(estimator.size[1]);
     let picture = [0, 1, 2].map(|channel| f64::from(settings.exposure()) * f64::from(texel[channel]));
     let blur = match estimator.model {
@@ -78,7 +94,10 @@ fn expected(
     };
     match overlay {
         Overlay::Depth if depth.is_infinite() => [0.0; 3],
-        Overlay::Depth => [focal_distance / (focal_distance + depth); 3],
+        Overlay::Depth => {
+            let focal_distance = f64::from(estimator.lens.focal_distance);
+            [focal_distance / (focal_distance + depth); 3]
+        }
         Overlay::Normals if depth.is_infinite() => [0.0; 3],
         Overlay::Normals => {
             let camera = &estimator.camera;
@@ -123,7 +142,11 @@ fn overlays_show_what_each_pixel_sees() {
     // The near focus of a lens that moves narrows the view.
     let mut breathing = nearer.clone();
     breathing.estimator.camera.focus_breathing = true;
-    let mut settings = vec![small("version-4"), nearer, breathing, turned, hole, smooth, pinhole];
+    // The focal plane of a tilted lens is tilted, and a shift moves it over the picture.
+    let mut movements = small("version-4");
+    movements.estimator.lens.tilt_degrees = 11.0;
+    movements.estimator.camera.lens_shift_mm = [3.0, -5.0];
+    let mut settings = vec![small("version-4"), nearer, breathing, turned, hole, smooth, pinhole, movements];
     settings.iter_mut().for_each(|settings| settings.view.tolerance = Tolerance::Pixels(1.5));
     let check = |gpu: &Gpu| -> Result<String> {
         let mut renderer = gpu.renderer(&settings[0]);
@@ -139,8 +162,9 @@ fn overlays_show_what_each_pixel_sees() {
                 settings.show(Some(overlay));
                 let mut differ = 0;
                 let got = shown(&mut renderer, &settings)?;
+                let at = |i: usize| [i as u32 % 64, i as u32 / 64];
                 for (i, (texel, surface)) in film.iter().zip(&surfaces).enumerate() {
-                    let expected = encoded(expected(&settings, overlay, *texel, *surface));
+                    let expected = encoded(expected(&settings, overlay, at(i), *texel, *surface));
                     // Next to edges rounding decides what a ray meets, and at a mark's edge whether it is in.
                     let off = (0..3).map(|c| got[i][c].abs_diff(expected[c])).max().unwrap_or(0);
                     differ += u32::from(off > 2);

@@ -1,10 +1,11 @@
 // Optical vignetting: light must pass both the disc of the lens and its front rim. Seen from a point of the film, the
-// rim is shifted against the disc, and the shift grows with the distance of the point from the film's centre.
+// rim is shifted against the disc, and the shift grows with the distance of the point from the axis of the lens.
 
 #ifndef CATS_EYE_GLSL
 #define CATS_EYE_GLSL
 
 #include "aperture/record.glsl"
+#include "camera/movements.glsl"
 
 // M. Abramowitz and I. Stegun, Handbook of Mathematical Functions, 4.4.46, for values from 0 to 1.
 float arc_cosine(const float x) {
@@ -51,7 +52,8 @@ vec3 overlap_point(const vec2 off, const vec2 xi) {
 
 vec3 cats_eye_point(const vec2 q, const vec2 xi) {
     // Light that arrives from the right has passed the front rim farther to the left.
-    vec2 off = -aperture.cats_eye_shift * q;
+    vec2 from_axis = HAS_MOVEMENTS == 1u ? q - aperture.axis : q;
+    vec2 off = -aperture.cats_eye_shift * from_axis;
     off *= min(1.0, aperture.max_cats_eye_shift / max(length(off), 1e-20));
     vec3 point = overlap_point(off, xi);
     return vec3(aperture.stretch * point.xy, point.z);

@@ -26,6 +26,7 @@ struct Aperture {
     float max_cats_eye_shift; // the largest shift
     uvec2 cells; // columns and rows of the image
     float shutter; // how long the shutter is open, in seconds
+    vec2 axis; // the film point that the axis of the lens goes through, if it is not the middle of the picture
 };
 
 layout(set = 0, binding = BINDING_APERTURE, std430) readonly buffer ApertureBuffer {

@@ -14,11 +14,19 @@ struct OverlayScale {
     float blur; // the diameter of the lens times k, in pixels times scene units
     float inverse_image_distance; // 1 / F; for a hole -1 / v
     float inverse_focal_distance;
+    vec2 gradient; // for a tilted lens: by how much 1 / F grows from pixel to pixel, to the right and downwards
+    vec2 axis; // the pixel that looks along the optical axis
 };
 
-// The diameter of the circle of confusion in pixels: D k (1 / F - 1 / z). It is positive behind the focal plane.
-float circle_of_confusion(const OverlayScale scale, const float depth) {
-    return scale.blur * (scale.inverse_image_distance - 1.0 / depth);
+// How much larger 1 / F is at a pixel than on the optical axis.
+float focus_of_tilt(const OverlayScale scale, const vec2 pixel) {
+    return dot(scale.gradient, pixel - scale.axis);
+}
+
+// The diameter of the circle of confusion in pixels: D k (1 / F - 1 / z). It is positive behind the focal plane. Across the
+// direction of a tilt this is also the diameter of the circle that a tilted lens makes.
+float circle_of_confusion(const OverlayScale scale, const vec2 pixel, const float depth) {
+    return scale.blur * (scale.inverse_image_distance + focus_of_tilt(scale, pixel) - 1.0 / depth);
 }
 
 // A colour scale from black over red and yellow to white.
@@ -28,7 +36,8 @@ vec3 heat(const float share) {
 
 // surface is the normal at the point that the pixel's centre sees, in the camera's frame, and in w the depth.
 vec3 overlay_color(
-    const OverlayScale scale, const vec3 picture, const float count, const float error, const vec4 surface
+    const OverlayScale scale, const vec2 pixel, const vec3 picture, const float count, const float error,
+    const vec4 surface
 ) {
     float depth = surface.w;
     switch (scale.kind) {
@@ -41,13 +50,14 @@ vec3 overlay_color(
     case OVERLAY_NORMALS: // black where there is no surface
         return depth < MISS ? 0.5 + 0.5 * surface.xyz : vec3(0.0);
     case OVERLAY_CIRCLE_OF_CONFUSION:
-        float share = clamp(circle_of_confusion(scale, depth) / scale.full_scale, -1.0, 1.0);
+        float share = clamp(circle_of_confusion(scale, pixel, depth) / scale.full_scale, -1.0, 1.0);
         return mix(vec3(1.0), share < 0.0 ? IN_FRONT : BEHIND, abs(share));
     case OVERLAY_FOCUS_PEAKING:
-        bool sharp = abs(circle_of_confusion(scale, depth)) <= scale.full_scale;
+        bool sharp = abs(circle_of_confusion(scale, pixel, depth)) <= scale.full_scale;
         return sharp ? mix(picture, MARK, 0.6) : picture;
     case OVERLAY_FOCAL_PLANE:
-        bool in_plane = abs(depth * scale.inverse_focal_distance - 1.0) <= SLICE_HALF_WIDTH;
+        float inverse = scale.inverse_focal_distance + focus_of_tilt(scale, pixel);
+        bool in_plane = abs(depth * inverse - 1.0) <= SLICE_HALF_WIDTH;
         return in_plane ? mix(picture, SLICE, 0.75) : picture;
     default:
         return picture;

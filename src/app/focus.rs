@@ -152,7 +152,11 @@ impl Focus {
         let Some(target) = self.target.filter(|_| panel.follows && place(before) != place(camera)) else {
             return;
         };
-        let [was, is] = [before, camera].map(|camera| camera.frame().axial_depth(camera.eye, target));
+        let [Some(was), Some(is)] =
+            [before, camera].map(|camera| camera.focal_distance_through(lens, target))
+        else {
+            return;
+        };
         let distance = self.glide.as_mut().map_or(&mut lens.focal_distance, |glide| &mut glide.to);
         if is > f64::from(MIN_LENGTH) && (f64::from(*distance) - was).abs() <= IN_PLANE * was.abs() {
             *distance = (is as f32).min(MAX_LENGTH);
@@ -263,9 +267,13 @@ impl Focus {
                 "This camera has no lens, and so nothing to focus. Choose a thin lens for that.".into(),
             ));
         }
-        self.target = surface.map(|surface| surface.point);
         let (to, said) = match surface {
-            Some(surface) => (surface.depth, None),
+            Some(Surface { focal_distance: Some(distance), .. }) => (*distance, None),
+            Some(_) => {
+                return Some(Err(
+                    "No focal distance makes the picture of this tilted lens sharp here. Tilt the lens less, or focus on another place.".into(),
+                ));
+            }
             None if lens.diameter == 0.0 => {
                 return Some(
                     Ok("The lens is a point, so everything is sharp wherever it is focused.".into()),
@@ -282,6 +290,7 @@ impl Focus {
                 (hyperfocal, Some(Ok(said)))
             }
         };
+        self.target = surface.map(|surface| surface.point);
         let to = (to as f32).clamp(MIN_LENGTH, MAX_LENGTH);
         self.glide = Some(Glide { from: lens.focal_distance, to, since: Instant::now() });
         log::debug!("focusing at {to}");

@@ -13,6 +13,7 @@ use crate::error::{Error, Result};
 use crate::output::{self, Origin, PictureFormat};
 use crate::scene::{self, ApertureImage, BUILTINS, Builtin, SceneRef};
 use crate::settings::{Called, Settings};
+use glam::DVec2;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -101,6 +102,8 @@ pub(super) struct HeldPart {
     pub(super) beside: [f32; 2],
     /// The diameter of the opening divided by its half extent in the drawing, when it was grasped.
     pub(super) diameter_per_half: f64,
+    /// The slopes of the centre ray to the right and upwards.
+    pub(super) slope: DVec2,
     /// The focal length in mm divided by the distance of the film, when it was grasped.
     pub(super) mm_per_distance: f64,
 }

@@ -3,6 +3,7 @@
 use crate::renderer::Surface;
 use crate::scene::CameraModel;
 use crate::settings::Settings;
+use glam::DVec3;
 
 /// A blur over fewer pixels than this is shown as none.
 const NO_BLUR: f64 = 0.05;
@@ -16,15 +17,16 @@ pub(super) fn length(value: f64) -> String {
     format!("{value:.*}", usize::try_from(decimals).unwrap_or(0))
 }
 
-/// How far a point at this depth is blurred, and on which side of the focal plane it lies. The second text is empty if
+/// How far a point of the scene is blurred, and on which side of the focal plane it lies. The second text is empty if
 /// there is nothing to say.
-pub(super) fn blur(settings: &Settings, depth: f64) -> [String; 2] {
+pub(super) fn blur(settings: &Settings, point: DVec3) -> [String; 2] {
     let estimator = &settings.estimator;
     let (camera, height) = (&estimator.camera, estimator.size[1]);
     let pixels = match estimator.model {
-        CameraModel::ThinLens => camera.circle_of_confusion(&estimator.lens, depth, height),
+        CameraModel::ThinLens => camera.circle_of_confusion_at(&estimator.lens, point, height),
         CameraModel::Pinhole => return ["sharp, as everything is through a pinhole".into(), String::new()],
         CameraModel::Hole => {
+            let depth = camera.frame().axial_depth(camera.eye, point);
             let spread = camera.film_distance().recip() + depth.recip();
             f64::from(estimator.hole.diameter) * spread * camera.view_distance_pixels(height)
         }
@@ -52,10 +54,10 @@ pub(super) fn blur(settings: &Settings, depth: f64) -> [String; 2] {
 
 /// What is seen at a place, in one line.
 pub(super) fn place(settings: &Settings, surface: Option<&Surface>) -> String {
-    let Some(Surface { material, depth, .. }) = surface else {
+    let Some(Surface { material, depth, point, .. }) = surface else {
         return "background: it is infinitely far away".into();
     };
-    let [size, side] = blur(settings, *depth);
+    let [size, side] = blur(settings, *point);
     let side = if side.is_empty() { side } else { format!(", {side}") };
     format!("{material}, {} away: {size}{side}", length(*depth))
 }
@@ -72,7 +74,10 @@ mod tests {
     fn what_is_in_focus_is_called_sharp() {
         let mut settings = Settings::of_scene(SceneRef::new(scene::load("version-4").expect("a scene")));
         let plane = f64::from(settings.estimator.lens.focal_distance);
-        let said = |settings: &Settings, share: f64| blur(settings, share * plane).join(", ");
+        let said = |settings: &Settings, share: f64| {
+            let camera = &settings.estimator.camera;
+            blur(settings, camera.eye - share * plane * camera.frame().w()).join(", ")
+        };
         assert_eq!(said(&settings, 1.0), "sharp, in the focal plane, ");
         let beside = said(&settings, 1.0 + 1e-2);
         assert!(beside.starts_with("sharp: ") && beside.ends_with("behind the focal plane"), "{beside}");

@@ -37,7 +37,7 @@ pub struct Diagram {
     pub half_picture: [f64; 2],
     /// The sample point on the view plane: q.
     pub q: DVec3,
-    /// The depth of the focal plane, and the point p where the centre ray meets it. `None` without a lens.
+    /// The depth in which the pixel is in focus, which is that of the focal plane, and the point p where the centre ray meets it. `None` without a lens.
     pub focus: Option<(f64, DVec3)>,
     /// The point where the centre ray hits a surface, if it hits one.
     pub hit: Option<DVec3>,
@@ -106,7 +106,9 @@ impl Diagram {
         let slope = slope / slope.z;
         let hit = picked.surface.as_ref().map(|surface| local(surface.point));
         let has_lens = estimator.model == CameraModel::ThinLens;
-        let focus = has_lens.then(|| (f64::from(estimator.lens.focal_distance), local(picked.focus)));
+        let plane = estimator.focal_plane();
+        let in_focus = plane.inverse_depth(slope.truncate()).recip();
+        let focus = has_lens.then(|| (in_focus, local(picked.focus)));
         let (near, reach) = extent(focus, hit, camera.film_distance());
         let view_plane = VIEW_PLANE_SHARE * near;
 
@@ -152,7 +154,7 @@ impl Diagram {
         diagram.image.pixels_per_unit = if is_turned { -pixels_per_unit } else { pixels_per_unit };
         // The film position in units of the distance to a corner.
         let corner = 0.5 * size[0].hypot(size[1]) / camera.view_distance_pixels(estimator.size[1]);
-        let film = [slope.x / corner, slope.y / corner];
+        let film = ((slope.truncate() - plane.axis()) / corner).to_array();
         diagram.image.openings = estimator.aperture.openings(estimator.model, film);
         if let Some(hit) = hit {
             diagram.take_light(hit);
@@ -179,8 +181,10 @@ impl Diagram {
         // The lines end a little beyond the film, or beyond the crossing if that is near.
         let end = 1.08 * crossing.filter(|at| *at < 1.7 * v).map_or(v, |at| at.max(v));
         let refracted = |lens: DVec3, behind: f64| {
-            let slope = (lens - hit).truncate() / hit.z - lens.truncate() * power;
-            (lens.truncate() + slope * behind).extend(-behind)
+            let slope = lens.truncate() * (hit.z.recip() - power) - hit.truncate() / hit.z;
+            // A point of a tilted lens lies a little before or behind its centre, and on the same ray.
+            let way = (behind + lens.z) / (1.0 + lens.z * (power - hit.z.recip()));
+            (lens.truncate() + slope * way).extend(-behind)
         };
         let light = |fan: &[Line]| fan.iter().map(|ray| [ray[0], refracted(ray[0], end)]).collect();
         (self.image.light_up, self.image.light_across) = (light(&self.fan_up), light(&self.fan_across));
@@ -196,7 +200,8 @@ impl Diagram {
 
 /// How far the nearer one of focal plane and object is, and at which depth the drawing ends.
 fn extent(focus: Option<(f64, DVec3)>, hit: Option<DVec3>, film_distance: f64) -> (f64, f64) {
-    let depths = [focus.map(|(depth, _)| depth), hit.map(|point| point.z)];
+    // A tilted lens may be in focus behind itself, where nothing is drawn.
+    let depths = [focus.map(|(depth, _)| depth).filter(|depth| *depth > 0.0), hit.map(|point| point.z)];
     let (near, far) = depths
         .into_iter()
         .flatten()

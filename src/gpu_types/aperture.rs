@@ -23,6 +23,7 @@ pub struct Aperture {
     pub cells: [u32; 2],
     pub shutter: f32,
     pub pad0: u32,
+    pub axis: [f32; 2],
 }
 
 /// `ApertureBuffer` of aperture/record.glsl.
@@ -60,6 +61,8 @@ impl ApertureBuffer {
                     / estimator.focused_camera().view_distance_pixels(estimator.size[1]);
                 shape.cats_eye_shift = (2.0 * f64::from(in_corner) / corner) as f32;
                 shape.max_cats_eye_shift = 2.0 * in_corner;
+                let axis = estimator.focal_plane().axis() - estimator.focused_camera().shift();
+                shape.axis = axis.as_vec2().to_array();
             }
             ApertureKind::Image(image) => {
                 let [columns, rows] = image.size;

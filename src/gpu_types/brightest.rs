@@ -4,7 +4,7 @@
 use super::Camera;
 use crate::scene::{Frame, Plane, Scene};
 use crate::settings::Estimator;
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DQuat, DVec2, DVec3, Vec3};
 
 /// An upper bound for the luminance that a pixel's rays can meet, for each cell of a grid over the picture.
 ///
@@ -120,10 +120,14 @@ struct Area {
 struct View {
     frame: Frame,
     eye: DVec3,
-    lens_radius: f64,
+    /// The corners of a square around the lens.
+    lens: [DVec3; 4],
+    /// `1 / z` on the optical axis, and how it grows with the film point: see [`crate::scene::FocalPlane`].
     inverse_focal_distance: f64,
+    slope: DVec2,
     /// Scales points of the view plane at distance one to pixels, with y down.
     pixels: DVec2,
+    /// The pixel that looks along the optical axis.
     film_centre: DVec2,
     /// How far beyond the edge of its start pixel a sample can lie, and half a pixel for rounding.
     margin: f64,
@@ -134,13 +138,19 @@ impl View {
     fn new(estimator: &Estimator) -> Self {
         let camera = Camera::new(estimator);
         let [width, height] = estimator.size.map(f64::from);
+        let (plane, shift) = (estimator.focal_plane(), estimator.focused_camera().shift());
+        let pixels = DVec2::new(1.0, -1.0) / f64::from(camera.inverse_view_distance);
+        let turn = DQuat::from_rotation_arc(DVec3::NEG_Z, plane.lens_axis());
+        let radius = f64::from(camera.lens_radius);
         Self {
             frame: estimator.camera.frame(),
             eye: estimator.camera.eye,
-            lens_radius: f64::from(camera.lens_radius),
-            inverse_focal_distance: f64::from(camera.inverse_focal_distance),
-            pixels: DVec2::new(1.0, -1.0) / f64::from(camera.inverse_view_distance),
-            film_centre: 0.5 * DVec2::new(width, height),
+            lens: [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)]
+                .map(|(x, y)| turn * (radius * DVec3::new(x, y, 0.0))),
+            inverse_focal_distance: f64::from(camera.inverse_focal_distance) - plane.slope.dot(shift),
+            slope: plane.slope,
+            pixels,
+            film_centre: 0.5 * DVec2::new(width, height) - shift * pixels,
             margin: 0.5 * f64::from(camera.jitter).max(1.0),
             half_shutter: 0.5 * f64::from(estimator.shutter),
         }
@@ -149,8 +159,8 @@ impl View {
     /// Bounds the picture of a convex shape with these corners.
     ///
     /// From one point of the lens, the picture of the shape lies within those of its corners, because perspective maps
-    /// convex shapes to convex ones. Seen from all points of the lens, a point at depth z is blurred over a disc of
-    /// radius `R |1/z - 1/F|` on the view plane.
+    /// convex shapes to convex ones. For the same reason, the picture of a point from all points of the lens lies within
+    /// those from the corners of a square around the lens.
     fn area(&self, corners: impl Iterator<Item = DVec3>, velocity: Vec3) -> Area {
         let way = velocity.as_dvec3();
         let times: &[f64] =
@@ -160,16 +170,16 @@ impl View {
         let camera_from_world = self.frame.world_from_camera.transpose();
         for corner in corners.flat_map(|corner| times.iter().map(move |time| corner + *time * way)) {
             let at = camera_from_world * (corner - self.eye);
-            if at.z >= 0.0 {
-                any_behind = true;
-                continue;
+            for lens_point in self.lens {
+                let Some(q) = self.film_point(at, lens_point) else {
+                    any_behind = true;
+                    continue;
+                };
+                any_before = true;
+                let middle = self.film_centre + q * self.pixels;
+                (area.from, area.to) =
+                    (area.from.min(middle - self.margin), area.to.max(middle + self.margin));
             }
-            any_before = true;
-            let inverse_depth = (-at.z).recip();
-            let blur = self.lens_radius * (inverse_depth - self.inverse_focal_distance).abs();
-            let middle = self.film_centre + at.truncate() * inverse_depth * self.pixels;
-            let reach = blur * self.pixels.abs() + self.margin;
-            (area.from, area.to) = (area.from.min(middle - reach), area.to.max(middle + reach));
         }
         if any_before && any_behind {
             // The shape crosses the plane of the lens, so its picture has no bounds.
@@ -178,25 +188,38 @@ impl View {
         area
     }
 
+    /// The film point whose ray through a point `l` of the lens goes through the point `at`. `None` if there is none because
+    /// `at` does not lie before the lens.
+    ///
+    /// The ray runs along `(q, -1) - l s`, where `s` is `1 / z` at `q`, which is linear in `q`. So the condition that the ray
+    /// is parallel to `at - l` is linear in `q` too.
+    fn film_point(&self, at: DVec3, l: DVec3) -> Option<DVec2> {
+        let way = at - l;
+        let (depth, aside) = (-way.z, way.truncate());
+        let below = depth * (1.0 - self.slope.dot(l.truncate())) - l.z * self.slope.dot(aside);
+        let straight = 1.0 - self.slope.dot(l.truncate()) + l.z * self.inverse_focal_distance;
+        let focus = self.inverse_focal_distance * depth + self.slope.dot(aside);
+        (below > 0.0 && straight > 0.0).then(|| (straight * aside + focus * l.truncate()) / below)
+    }
+
     /// Whether rays through an area of the film can meet a plane. A ray's distance from the plane at its start, and the
-    /// rate at which it approaches the plane, are linear in the points of the film and of the lens that it passes. So
-    /// it is enough to test the corners of the area and of a square around the lens.
+    /// rate at which it approaches the plane, are linear in the point of the film, and in the point of the lens, that it
+    /// passes. So it is enough to test the corners of the area and of a square around the lens.
     fn sees(&self, plane: &Plane, area: Area) -> bool {
         let Frame { world_from_camera } = self.frame;
         let normal = world_from_camera.transpose() * plane.normal.as_dvec3().normalize();
         let eye = world_from_camera.transpose() * (plane.point - self.eye);
         let area = [area.from - self.margin, area.to + self.margin];
-        let lens = [-self.lens_radius, self.lens_radius];
-        let of_lens = || lens.into_iter().flat_map(|x| lens.map(|y| DVec2::new(x, y)));
-        let heights = || of_lens().map(|l| normal.dot(eye - l.extend(0.0)));
+        let heights = || self.lens.iter().map(|l| normal.dot(eye - *l));
         if heights().any(|height| height >= 0.0) && heights().any(|height| height <= 0.0) {
             return true;
         }
         let of_area = || area.into_iter().flat_map(|x| area.map(|y| DVec2::new(x.x, y.y)));
-        of_lens().zip(heights()).any(|(l, height)| {
+        self.lens.iter().zip(heights()).any(|(l, height)| {
             of_area().any(|at| {
-                let slope = (at - self.film_centre) / self.pixels - l * self.inverse_focal_distance;
-                height * normal.dot(slope.extend(-1.0)) >= 0.0
+                let q = (at - self.film_centre) / self.pixels;
+                let direction = q.extend(-1.0) - *l * (self.inverse_focal_distance + self.slope.dot(q));
+                height * normal.dot(direction) >= 0.0
             })
         })
     }

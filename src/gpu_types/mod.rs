@@ -21,6 +21,7 @@ use crate::interface::{GROUP_SIZE, constant, sampler};
 use crate::scene::CameraModel;
 use crate::settings::{Estimator, Sampler, Settings};
 use bytemuck::{Pod, Zeroable};
+use glam::{DVec2, UVec2};
 
 /// The three texels of a node in bvh.glsl. The upper byte of `exponents_and_child_count` is the number of children. A
 /// [`ShapeRecord`] has its material there, an index so small that its upper byte is zero, which distinguishes shapes from
@@ -58,6 +59,9 @@ pub struct Camera {
     pub inverse_view_distance: f32,
     pub w: [f32; 3],
     pub jitter: f32,
+    pub tilt: [f32; 2],
+    pub inverse_focal_length: f32,
+    pub pad0: u32,
 }
 
 /// `Lattice` of film.glsl: the pixels `origin + stride * i` inside `extent`.
@@ -124,6 +128,9 @@ pub struct OverlayScale {
     pub blur: f32,
     pub inverse_image_distance: f32,
     pub inverse_focal_distance: f32,
+    pub pad0: u32,
+    pub gradient: [f32; 2],
+    pub axis: [f32; 2],
 }
 
 /// `GeometryPush` of geometry.comp.
@@ -131,8 +138,9 @@ pub struct OverlayScale {
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub struct GeometryPush {
     pub camera: Camera,
-    pub extent: [u32; 2],
+    pub w: [f32; 3],
     pub top: u32,
+    pub extent: [u32; 2],
 }
 
 /// `PickPush` of pick.comp.
@@ -165,14 +173,34 @@ impl OverlayScale {
         let Some(shown) = settings.view.overlay else {
             return Self::default();
         };
-        let camera = Camera::new(&settings.estimator);
+        let estimator = &settings.estimator;
+        let camera = Camera::new(estimator);
+        let pixels = DVec2::new(1.0, -1.0) / f64::from(camera.inverse_view_distance);
+        let middle = 0.5 * (UVec2::from(estimator.size).as_dvec2() - 1.0);
+        let shift = estimator.focused_camera().shift();
+        let plane = estimator.focal_plane();
+        let inverse_image_distance = match estimator.model {
+            CameraModel::ThinLens => plane.inverse_distance as f32,
+            CameraModel::Pinhole | CameraModel::Hole => camera.inverse_focal_distance,
+        };
         Self {
             kind: shown as u32,
             full_scale: settings.overlay_scale(shown),
             blur: 2.0 * camera.lens_radius / camera.inverse_view_distance.abs(),
-            inverse_image_distance: camera.inverse_focal_distance,
-            inverse_focal_distance: settings.estimator.lens.focal_distance.recip(),
+            inverse_image_distance,
+            inverse_focal_distance: estimator.lens.focal_distance.recip(),
+            gradient: (plane.slope / pixels).as_vec2().to_array(),
+            axis: (middle - shift * pixels).as_vec2().to_array(),
+            pad0: 0,
         }
+    }
+}
+
+impl GeometryPush {
+    /// For all pixels of a picture.
+    pub fn new(estimator: &Estimator) -> Self {
+        let w = estimator.camera.frame().w().as_vec3().to_array();
+        Self { camera: Camera::new(estimator), w, top: 0, extent: estimator.size }
     }
 }
 
@@ -182,9 +210,15 @@ pub fn film_constants(estimator: &Estimator) -> [(u32, u32); 2] {
 }
 
 /// The specialization constants of the passes that trace rays through the lens, without those of the scene.
-pub fn lens_constants(estimator: &Estimator) -> [(u32, u32); 3] {
+pub fn lens_constants(estimator: &Estimator) -> [(u32, u32); 4] {
     let [sampler, has_moments] = film_constants(estimator);
-    [sampler, has_moments, aperture_constant(estimator)]
+    [sampler, has_moments, aperture_constant(estimator), movements_constant(estimator)]
+}
+
+/// `HAS_MOVEMENTS` of movements.glsl. A pinhole and a hole see the same from every tilt, and need no code for a shift.
+pub fn movements_constant(estimator: &Estimator) -> (u32, u32) {
+    let moved = estimator.focal_plane().slope != DVec2::ZERO || estimator.camera.shift() != DVec2::ZERO;
+    (constant::HAS_MOVEMENTS, (moved && estimator.model == CameraModel::ThinLens).into())
 }
 
 /// `SAMPLER` of sampling.glsl.
@@ -223,12 +257,13 @@ impl Camera {
     pub fn new(estimator: &Estimator) -> Self {
         let camera = &estimator.focused_camera();
         let frame = camera.frame();
+        let (plane, shift) = (estimator.focal_plane(), camera.shift());
         let view_distance = camera.view_distance_pixels(estimator.size[1]);
         // A film point s at the distance v behind a hole sees through the point l of the hole along l - s. On the view
         // plane, s / v is -q, or q if the picture is turned upright. So this is the equation of a lens with -v for
         // the focal distance.
         let (diameter, inverse_focal_distance) = match estimator.model {
-            CameraModel::ThinLens => (estimator.lens.diameter, estimator.lens.focal_distance.recip()),
+            CameraModel::ThinLens => (estimator.lens.diameter, plane.inverse_depth(shift) as f32),
             CameraModel::Pinhole => (0.0, 0.0),
             CameraModel::Hole => (estimator.hole.diameter, -camera.film_distance().recip() as f32),
         };
@@ -240,8 +275,11 @@ impl Camera {
             inverse_focal_distance,
             v: frame.v().as_vec3().to_array(),
             inverse_view_distance: view_distance.recip() as f32,
-            w: frame.w().as_vec3().to_array(),
+            w: (frame.w() - shift.x * frame.u() - shift.y * frame.v()).as_vec3().to_array(),
             jitter: estimator.jitter,
+            tilt: plane.tilt.as_vec2().to_array(),
+            inverse_focal_length: plane.inverse_focal_length as f32,
+            pad0: 0,
         }
     }
 }

@@ -92,6 +92,12 @@ fn focus(renderer: &mut Renderer, settings: &Settings, focusing: Focusing) -> Re
     settings.focused(focusing, |place| {
         let position @ [x, y] = position("the place to focus on", settings, place)?;
         match renderer.pick(Question::at(position))?.and_then(|picked| picked.surface) {
+            Some(surface) if matches!(focusing, Focusing::On(_)) => surface.focal_distance.ok_or_else(|| {
+                Error::NoLens(format!(
+                    "no focal distance makes the picture of this tilted lens sharp at {x},{y}; tilt the lens less, or \
+                     focus on another place"
+                ))
+            }),
             Some(surface) => Ok(surface.depth),
             None if matches!(focusing, Focusing::On(_)) => Err(Error::NothingToFocusOn { x, y }),
             None => Ok(f64::INFINITY),

@@ -2,8 +2,8 @@
 
 use super::SceneBuffers;
 use crate::error::Result;
-use crate::gpu_types::{Camera, GeometryPush};
-use crate::interface::{GROUP_SIZE, binding};
+use crate::gpu_types::GeometryPush;
+use crate::interface::{GROUP_SIZE, binding, constant};
 use crate::vulkan::{Binding, BindingSet, ComputePipeline, Device, Image, Recording, Shader, shader};
 use std::sync::Arc;
 
@@ -19,7 +19,9 @@ impl Geometry {
 
     /// Compiles the pass from its shader, or from one with the same interface, for the constants of a scene.
     pub fn new(device: &Arc<Device>, shader: Shader, scene: &SceneBuffers) -> Result<Self> {
-        Ok(Self(ComputePipeline::new(device, shader, scene.constants())?))
+        // Nothing that is done to the lens changes the ray through its centre, except for a shift, which needs no code.
+        let constants = [scene.constants(), &[(constant::HAS_MOVEMENTS, 0)]].concat();
+        Ok(Self(ComputePipeline::new(device, shader, &constants)?))
     }
 
     /// The pass looks at `scene` and writes to the image `surfaces`.
@@ -29,22 +31,14 @@ impl Geometry {
         BindingSet::new(&self.0, &bindings)
     }
 
-    /// Traces a ray for each pixel of a picture of this extent.
-    pub fn record(
-        &self,
-        recording: &mut Recording<'_>,
-        bindings: &BindingSet,
-        camera: Camera,
-        extent: [u32; 2],
-    ) {
-        let [width, height] = extent;
+    /// Traces a ray for each pixel of the picture.
+    pub fn record(&self, recording: &mut Recording<'_>, bindings: &BindingSet, mut push: GeometryPush) {
+        let [width, height] = push.extent;
         let rows = (MAX_PIXELS / width).max(1).next_multiple_of(GROUP_SIZE);
-        let mut top = 0;
-        while top < height {
-            let push = GeometryPush { camera, extent, top };
-            let size = [width, rows.min(height - top)];
+        while push.top < height {
+            let size = [width, rows.min(height - push.top)];
             recording.dispatch(&self.0, bindings, bytemuck::bytes_of(&push), size);
-            top += rows;
+            push.top += rows;
         }
     }
 }

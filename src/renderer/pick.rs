@@ -57,8 +57,11 @@ pub struct LensRay {
 pub struct Surface {
     /// The point in world coordinates.
     pub point: DVec3,
-    /// The depth along the optical axis, in scene units. The point is in focus at this focal distance.
+    /// The depth along the optical axis, in scene units.
     pub depth: f64,
+    /// The focal distance at which the point is in focus: its depth, unless the lens is tilted. `None` if a tilted lens
+    /// cannot be focused on it.
+    pub focal_distance: Option<f64>,
     /// The name of the material.
     pub material: String,
 }
@@ -68,6 +71,7 @@ pub struct Surface {
 pub(super) struct Asked {
     question: Question,
     camera: scene::Camera,
+    lens: scene::Lens,
 }
 
 impl Picked {
@@ -114,7 +118,7 @@ impl Renderer {
         recording.barrier();
         pick.pass.record(recording, bindings, &push);
         recording.barrier();
-        *asked = Some(Asked { question, camera: estimator.camera });
+        *asked = Some(Asked { question, camera: estimator.camera, lens: estimator.lens_in_use() });
         true
     }
 
@@ -122,7 +126,7 @@ impl Renderer {
     /// answer was returned already, or if something else has been loaded since.
     pub fn picked(&mut self, frame: usize) -> Option<Picked> {
         let (bindings, asked) = &mut self.loaded.passes.pick.as_mut()?.frames[frame];
-        let Asked { question, camera } = asked.take()?;
+        let Asked { question, camera, lens } = asked.take()?;
         let scene = &self.settings.estimator.scene;
         let traced = bindings.read((1 + 2 * question.fan + question.samples) as usize);
         let vector = |vector: [f32; 3]| Vec3::from_array(vector).as_dvec3();
@@ -138,7 +142,8 @@ impl Renderer {
             let point = centre.origin + centre.distance * centre.direction;
             let depth = camera.frame().axial_depth(camera.eye, point);
             let material = scene.material_names.get(traced[0].material as usize).cloned();
-            Surface { point, depth, material: material.unwrap_or_default() }
+            let focal_distance = camera.focal_distance_through(&lens, point);
+            Surface { point, depth, focal_distance, material: material.unwrap_or_default() }
         });
         let focus = scene.middle() + vector(traced[0].focus);
         Some(Picked { question, surface, focus, rays })

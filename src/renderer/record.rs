@@ -7,8 +7,8 @@ use super::tally::Work;
 use super::tiles::Tile;
 use super::{Pace, Renderer};
 use crate::gpu_types::{
-    AccumulatePush, ApertureBuffer, Brightest, Camera, Counters, OverlayScale, ResolvePush, SelectPush,
-    TracePush,
+    AccumulatePush, ApertureBuffer, Brightest, Camera, Counters, GeometryPush, OverlayScale, ResolvePush,
+    SelectPush, TracePush,
 };
 use crate::passes::AdaptiveBuffers;
 use crate::vulkan::Recording;
@@ -161,7 +161,7 @@ impl Renderer {
             && surfaces.goes_to(Seen::new(estimator))
         {
             recording.barrier();
-            geometry.record(recording, bindings, Camera::new(estimator), estimator.size);
+            geometry.record(recording, bindings, GeometryPush::new(estimator));
             recording.barrier();
         }
     }

@@ -22,6 +22,9 @@ pub struct Camera {
     /// Whether the lens moves to focus, which narrows the field of view. Then the field of view above is that of focus at
     /// infinity. Otherwise the film stays where it is.
     pub focus_breathing: bool,
+    /// How far the lens is shifted beside the film, to the right and upwards, in millimetres. The picture then shows more of
+    /// what is at the right, or above. The lens stays at `eye`, so it is the film that moves.
+    pub lens_shift_mm: [f32; 2],
 }
 
 /// The model of the camera.
@@ -47,8 +50,20 @@ impl CameraModel {
 pub struct Lens {
     /// The diameter. 0 is a pinhole.
     pub diameter: f32,
-    /// The distance of the focal plane along the optical axis.
+    /// The distance of the focal plane along the optical axis of the camera, which is perpendicular to the film.
     pub focal_distance: f32,
+    /// The angle by which the axis of the lens is turned away from that of the camera.
+    pub tilt_degrees: f32,
+    /// The direction to which the axis is turned, anticlockwise as seen from behind the camera. At 0 it is turned down, at
+    /// 90 to the right.
+    pub tilt_direction_degrees: f32,
+}
+
+impl Lens {
+    /// A lens that is not tilted.
+    pub const fn new(diameter: f32, focal_distance: f32) -> Self {
+        Self { diameter, focal_distance, tilt_degrees: 0.0, tilt_direction_degrees: 0.0 }
+    }
 }
 
 /// The hole of a physical pinhole camera. The film stands [`Camera::film_distance`] behind it.

@@ -34,14 +34,15 @@ impl Camera {
     }
 
     /// The camera when this lens is in focus. With focus breathing, a lens of the focal length `f` stands
-    /// `v = f F / (F - f)` before the film, which narrows the field of view. Otherwise nothing changes.
+    /// `v = f F / (F - f)` before the film, which narrows the field of view. If the lens is tilted by an angle `a`, `v` is
+    /// `f F / (F cos a - f)`. Without focus breathing nothing changes.
     #[must_use]
     pub fn focused(&self, lens: &Lens) -> Self {
         if !self.focus_breathing {
             return *self;
         }
         let (focal_length, focused) = (self.film_distance(), f64::from(lens.focal_distance));
-        let narrowed = (0.5 * self.vfov_radians).tan() * (focused - focal_length) / focused;
+        let narrowed = (0.5 * self.vfov_radians).tan() * (focused * lens.cos_tilt() - focal_length) / focused;
         Self { vfov_radians: 2.0 * narrowed.atan(), focus_breathing: false, ..*self }
     }
 
@@ -50,7 +51,7 @@ impl Camera {
     /// # Errors
     /// What is wrong, as the end of a sentence that begins with what the user calls the focal distance.
     pub fn can_focus(&self, lens: &Lens) -> Result<(), String> {
-        let nearest = NEAREST_FOCAL_LENGTHS * self.film_distance();
+        let nearest = NEAREST_FOCAL_LENGTHS * self.film_distance() / lens.cos_tilt();
         if !self.focus_breathing || f64::from(lens.focal_distance) >= nearest {
             return Ok(());
         }
@@ -108,16 +109,15 @@ impl Camera {
         self.units_of_mm(0.3) as f32
     }
 
-    /// The diameter of the circle of confusion of a point at this axial depth, in pixels of a picture of this height.
+    /// The diameter of the circle of confusion of a point at this depth on the optical axis, in pixels of a picture of this
+    /// height.
     /// It is positive behind the focal plane and negative in front of it.
     pub fn circle_of_confusion(&self, lens: &Lens, depth: f64, height: u32) -> f64 {
-        let focal_distance = f64::from(lens.focal_distance);
-        f64::from(lens.diameter) * (depth - focal_distance) / (depth * focal_distance)
-            * self.focused(lens).view_distance_pixels(height)
+        self.circle_of_confusion_at(lens, self.eye - depth * self.frame().w(), height)
     }
 
-    /// The depth of field: the axial depths between which circles of confusion are at most `tolerance` pixels wide. The
-    /// far limit is infinite if the lens is focused at the hyperfocal distance or beyond.
+    /// The depth of field: the depths on the optical axis between which circles of confusion are at most `tolerance` pixels
+    /// wide. The far limit is infinite if the lens is focused at the hyperfocal distance or beyond.
     pub fn depth_of_field(&self, lens: &Lens, tolerance: f64, height: u32) -> [f64; 2] {
         let focused = f64::from(lens.focal_distance).recip();
         let view_distance = self.focused(lens).view_distance_pixels(height);
@@ -130,7 +130,10 @@ impl Camera {
     /// `tolerance` pixels.
     pub fn hyperfocal_distance(&self, lens: &Lens, tolerance: f64, height: u32) -> f64 {
         let without_breathing = f64::from(lens.diameter) * self.view_distance_pixels(height) / tolerance;
-        // With breathing, D v / c = F, where v = f F / (F - f): so F = D f / c + f.
-        without_breathing + if self.focus_breathing { self.film_distance() } else { 0.0 }
+        if !self.focus_breathing {
+            return without_breathing;
+        }
+        // With breathing, D v / c = F, where v = f F / (F cos a - f): so F cos a = D f / c + f.
+        (without_breathing + self.film_distance()) / lens.cos_tilt()
     }
 }

@@ -19,9 +19,13 @@ pub const DIAMETERS: [f32; 2] = [0.0, MAX_LENGTH];
 pub const F_NUMBERS: [f64; 2] = [0.01, 1e6];
 /// The focal distance, in scene units.
 pub const FOCAL_DISTANCES: [f32; 2] = [MIN_LENGTH, MAX_LENGTH];
+/// How far a lens is shifted beside the film, in millimetres.
+pub const SHIFTS_MM: [f32; 2] = [-1000.0, 1000.0];
+/// The angle by which a lens is tilted, in degrees.
+pub const TILTS: [f32; 2] = [-45.0, 45.0];
 /// The number of blades of an iris.
 pub const BLADES: [u32; 2] = [3, 16];
-/// The angle by which an iris is turned, in degrees.
+/// The angle by which an iris or the direction of a tilt is turned, in degrees.
 pub const ROTATIONS: [f32; 2] = [-360.0, 360.0];
 /// The curvature of the blades' edges.
 pub const ROUNDNESSES: [f32; 2] = [0.0, 1.0];

@@ -97,7 +97,7 @@ pub(super) fn around(mesh: &Mesh, name: &str) -> Result<(Scene, String)> {
         files: Vec::new(),
         camera,
         model: CameraModel::default(),
-        lens: Lens { diameter: 0.0, focal_distance: 1.0 },
+        lens: Lens::new(0.0, 1.0),
         hole: Hole { diameter: 0.0, upright: false },
         aperture: Aperture::default(),
         size: SIZE,
@@ -179,6 +179,7 @@ fn camera(center: DVec3, half: DVec3) -> Camera {
             metres_per_unit: 1.0,
             sensor: Sensor::FULL_FRAME,
             focus_breathing: false,
+            lens_shift_mm: [0.0; 2],
         };
         camera.with_few_digits()
     };
@@ -206,7 +207,7 @@ fn lens_for(scene: &Scene) -> Lens {
     // The circle of confusion D (far - near) / (far near) k, and k = height / 2 / tan(vfov / 2).
     let blur_of_one = (far - near) / far * 0.5 / (0.5 * scene.camera.vfov_radians).tan();
     let ratio = (FAR_BLUR / blur_of_one).min(WIDEST_LENS);
-    Lens { diameter: (ratio * near) as f32, focal_distance: near as f32 }
+    Lens::new((ratio * near) as f32, near as f32)
 }
 
 fn light((light, radiance, shadows): (DirectionalLight, Vec3, bool)) -> Light {

@@ -43,10 +43,8 @@ impl Camera {
             return Err("the lens would have to be focused at infinity; choose a place that is nearer".into());
         }
         // The reason reads on after what the user calls the focal distance.
-        self.can_focus(&Lens { diameter: 1.0, focal_distance })
-            .map_err(|why| format!("the focal distance {why}"))?;
-        let of_one =
-            self.circle_of_confusion(&Lens { diameter: 1.0, focal_distance }, depth.min(FAR), height);
+        self.can_focus(&Lens::new(1.0, focal_distance)).map_err(|why| format!("the focal distance {why}"))?;
+        let of_one = self.circle_of_confusion(&Lens::new(1.0, focal_distance), depth.min(FAR), height);
         let diameter = (pixels / of_one.abs()) as f32;
         let f_number = self.f_number(diameter);
         if !within(diameter, DIAMETERS) || f_number < WIDEST {
@@ -55,7 +53,7 @@ impl Camera {
                  whose depths differ more"
             ));
         }
-        Ok(Lens { diameter, focal_distance })
+        Ok(Lens::new(diameter, focal_distance))
     }
 }
 

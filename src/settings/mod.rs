@@ -20,7 +20,8 @@ pub use typed::{Unit, metric, rounded};
 
 use crate::error::{Error, Result};
 use crate::scene::{
-    Aperture, Camera, CameraModel, FullScale, Hole, Lens, Overlay, Preset, SceneRef, Source, View, in_range,
+    Aperture, Camera, CameraModel, FocalPlane, FullScale, Hole, Lens, Overlay, Preset, SceneRef, Source,
+    View, in_range,
 };
 use std::path::Path;
 
@@ -139,6 +140,19 @@ impl Estimator {
             CameraModel::ThinLens => self.camera.focused(&self.lens),
             CameraModel::Pinhole | CameraModel::Hole => self.camera,
         }
+    }
+
+    /// The lens, which is not tilted where a pinhole or a hole stands in its place.
+    pub fn lens_in_use(&self) -> Lens {
+        match self.model {
+            CameraModel::ThinLens => self.lens,
+            CameraModel::Pinhole | CameraModel::Hole => Lens { tilt_degrees: 0.0, ..self.lens },
+        }
+    }
+
+    /// Where the lens is in focus.
+    pub fn focal_plane(&self) -> FocalPlane {
+        self.focused_camera().focal_plane(&self.lens_in_use())
     }
 
     /// The f-number of the lens when it is focused at infinity, which is the one engraved on a lens. Infinite if the

@@ -96,7 +96,7 @@ fn option(setting: &'static Setting) -> Arg {
     let text = ValueParser::new(|text: &str| setting.parse(text));
     match &setting.access {
         // clap takes -1/3 and -12,5 for options.
-        Access::Vector(..) | Access::Single(_, _, Unit::Stops | Unit::Degrees) => {
+        Access::Vector(..) | Access::Single(_, _, Unit::Stops | Unit::Degrees | Unit::Millimetres) => {
             option.allow_hyphen_values(true).value_name(setting.value_name).value_parser(text)
         }
         Access::Switch(_) => {

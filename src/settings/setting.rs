@@ -125,6 +125,7 @@ pub enum Part {
     Model,
     Lens,
     Aperture,
+    Movements,
     Viewpoint,
     Light,
     Sampling,

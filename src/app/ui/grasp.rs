@@ -34,6 +34,7 @@ impl Optics {
                     scale: drawing.scale,
                     beside: [0, 1].map(|axis| pointer[axis] - on_it[axis]),
                     diameter_per_half: diameter_per_half(self.shown, diagram, estimator),
+                    slope: diagram.slope.truncate(),
                     mm_per_distance: estimator.camera.focal_length_mm() / diagram.image.film_distance,
                 }
             });
@@ -65,7 +66,10 @@ impl Optics {
             }
             Part::FocalPlane => {
                 let [least, most] = FOCAL_DISTANCES;
-                estimator.lens.focal_distance = (in_front() as f32).clamp(least, most);
+                let Estimator { camera, lens, .. } = estimator;
+                if let Some(distance) = camera.focal_distance_at(lens, held.slope, in_front()) {
+                    lens.focal_distance = (distance as f32).clamp(least, most);
+                }
             }
             Part::Film => {
                 let distance = -held.scale.depth(x.min(lens - CLOSEST));

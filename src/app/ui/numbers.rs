@@ -35,7 +35,7 @@ impl Panel {
             return;
         };
         ui.text(format!("{}, {} away", surface.material, length(surface.depth)));
-        for line in words::blur(&self.settings, surface.depth) {
+        for line in words::blur(&self.settings, surface.point) {
             ui.text(line);
         }
     }

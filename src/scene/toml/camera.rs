@@ -5,7 +5,7 @@ use super::number::{Positive, Vector, ranged};
 use crate::scene::{
     ANAMORPHICS, Aperture, ApertureImage, BLADES, CATS_EYES, Camera, CameraModel, DEFAULT_SHUTTER, DIAMETERS,
     F_NUMBERS, FOCAL_DISTANCES, FOCAL_LENGTHS_MM, Hole, ISOS, Lens, METRES_PER_UNIT, PRESETS, ROTATIONS,
-    ROUNDNESSES, SHUTTERS, Sensor, VFOV_DEGREES, View, in_range, in_range_or_zero,
+    ROUNDNESSES, SHIFTS_MM, SHUTTERS, Sensor, TILTS, VFOV_DEGREES, View, in_range, in_range_or_zero,
 };
 use glam::DVec3;
 use serde::Deserialize;
@@ -25,6 +25,10 @@ pub(super) struct CameraTable {
     focal_length: Option<Spanned<f64>>,
     #[serde(default)]
     focus_breathing: bool,
+    lens_shift: Option<Spanned<f32>>,
+    lens_rise: Option<Spanned<f32>>,
+    lens_tilt_degrees: Option<Spanned<f32>>,
+    tilt_direction_degrees: Option<Spanned<f32>>,
     view_distance: Option<Positive>,
     pixel_size: Option<Positive>,
     metres_per_unit: Option<Spanned<f64>>,
@@ -81,11 +85,27 @@ impl Shot {
         let sensor = table.sensor.as_ref().map(sensor).transpose()?.unwrap_or(Sensor::FULL_FRAME);
         let vfov_radians = f64::NAN;
         let focus_breathing = table.focus_breathing;
-        let mut camera = Camera { eye, look_at, up, vfov_radians, metres_per_unit, sensor, focus_breathing };
+        let shift = ranged("lens_shift", table.lens_shift.as_ref(), SHIFTS_MM)?.unwrap_or(0.0);
+        let rise = ranged("lens_rise", table.lens_rise.as_ref(), SHIFTS_MM)?.unwrap_or(0.0);
+        let lens_shift_mm = [shift, rise];
+        let mut camera = Camera {
+            eye,
+            look_at,
+            up,
+            vfov_radians,
+            metres_per_unit,
+            sensor,
+            focus_breathing,
+            lens_shift_mm,
+        };
         let mut model = CameraModel::default();
         let focal_distance = &table.focal_distance;
         ranged("focal_distance", Some(focal_distance), FOCAL_DISTANCES)?;
-        let mut lens = Lens { diameter: f32::NAN, focal_distance: *focal_distance.get_ref() };
+        let mut lens = Lens::new(f32::NAN, *focal_distance.get_ref());
+        lens.tilt_degrees =
+            ranged("lens_tilt_degrees", table.lens_tilt_degrees.as_ref(), TILTS)?.unwrap_or(0.0);
+        let direction = table.tilt_direction_degrees.as_ref();
+        lens.tilt_direction_degrees = ranged("tilt_direction_degrees", direction, ROTATIONS)?.unwrap_or(0.0);
         ranged("vfov_degrees", table.vfov_degrees.as_ref(), VFOV_DEGREES)?;
         ranged("focal_length", table.focal_length.as_ref(), FOCAL_LENGTHS_MM)?;
         let vfov_radians =

@@ -1,7 +1,9 @@
 //! The lens, or the hole of a camera without a lens.
 
 use super::{EVEN, LOGARITHMIC, by_name, camera, field, row};
-use crate::scene::{CameraModel, DIAMETERS, F_NUMBERS, FOCAL_DISTANCES, MAX_LENGTH, MIN_LENGTH};
+use crate::scene::{
+    CameraModel, DIAMETERS, F_NUMBERS, FOCAL_DISTANCES, MAX_LENGTH, MIN_LENGTH, ROTATIONS, SHIFTS_MM, TILTS,
+};
 use crate::settings::{
     Access, Choice, Field, Key, Part, Role, Row, Setting, Settings, Slider, Unit, Widget, name_of, named,
 };
@@ -38,6 +40,11 @@ fn lens_diameters(initial: &Settings) -> [f32; 2] {
 fn focal_distances(initial: &Settings) -> [f32; 2] {
     let distance = initial.estimator.lens.focal_distance;
     [(distance / 20.0).max(MIN_LENGTH), (distance * 20.0).min(MAX_LENGTH)]
+}
+
+fn shifts(initial: &Settings) -> [f32; 2] {
+    let half = 0.5 * initial.estimator.camera.sensor.height_mm as f32;
+    [-half, half]
 }
 
 fn hole_diameters(initial: &Settings) -> [f32; 2] {
@@ -138,6 +145,90 @@ pub(super) static LENS: &[Setting] = &[
             help: "The distance of the plane in which everything is sharp, in scene units.",
             shown: has_lens,
             widget: Widget::Slider(Slider { range: focal_distances, ..LOGARITHMIC }),
+        }),
+    },
+    Setting {
+        flag: "lens-shift",
+        letter: None,
+        value_name: "MM",
+        help: "How far the lens is shifted to the right beside the film, in mm, such as 5 or -5mm. The picture shows more of \
+               what is at the right, and straight lines stay as they are. It shifts a hole too",
+        default: "the scene's, or 0",
+        role: Role::Estimator,
+        key: camera("lens_shift"),
+        access: Access::Single(
+            Field {
+                get: |settings| settings.estimator.camera.lens_shift_mm[0],
+                set: |settings, mm| settings.estimator.camera.lens_shift_mm[0] = mm,
+            },
+            SHIFTS_MM,
+            Unit::Millimetres,
+        ),
+        row: row(
+            Part::Movements,
+            "Shift",
+            "How far the lens is shifted to the right beside the film. The picture shows more of what is at the right, and keeps its perspective.",
+            Widget::Slider(Slider { range: shifts, decimals: Some(1), ..EVEN }),
+        ),
+    },
+    Setting {
+        flag: "lens-rise",
+        letter: None,
+        value_name: "MM",
+        help: "How far the lens is shifted up beside the film, in mm. The picture shows more of what is above: a level camera \
+               takes in a tall house whose walls stay parallel. It shifts a hole too",
+        default: "the scene's, or 0",
+        role: Role::Estimator,
+        key: camera("lens_rise"),
+        access: Access::Single(
+            Field {
+                get: |settings| settings.estimator.camera.lens_shift_mm[1],
+                set: |settings, mm| settings.estimator.camera.lens_shift_mm[1] = mm,
+            },
+            SHIFTS_MM,
+            Unit::Millimetres,
+        ),
+        row: row(
+            Part::Movements,
+            "Rise",
+            "How far the lens is shifted up beside the film. A level camera then takes in a tall house, and its walls stay parallel.",
+            Widget::Slider(Slider { range: shifts, decimals: Some(1), ..EVEN }),
+        ),
+    },
+    Setting {
+        flag: "lens-tilt",
+        letter: None,
+        value_name: "DEG",
+        help: "The angle by which the lens is tilted, in degrees, from -45 to 45. The focal plane tilts with it: a lens that \
+               is tilted down can have the whole ground in focus. A pinhole and a hole have no lens to tilt",
+        default: "the scene's, or 0",
+        role: Role::Estimator,
+        key: camera("lens_tilt_degrees"),
+        access: Access::Single(field!(estimator.lens.tilt_degrees), TILTS, Unit::Degrees),
+        row: Some(Row {
+            part: Part::Movements,
+            label: "Tilt",
+            help: "The angle by which the lens is tilted. The plane in which everything is sharp tilts with it, around a line below the lens: the smaller the tilt, the deeper the line.",
+            shown: has_lens,
+            widget: Widget::Slider(Slider { range: |_| [-15.0, 15.0], decimals: Some(1), ..EVEN }),
+        }),
+    },
+    Setting {
+        flag: "tilt-direction",
+        letter: None,
+        value_name: "DEG",
+        help: "The direction to which the lens is tilted, in degrees anticlockwise, as seen from behind the camera. At 0 it \
+               is tilted down, and at 90 to the right, which photographers call swing",
+        default: "the scene's, or 0",
+        role: Role::Estimator,
+        key: camera("tilt_direction_degrees"),
+        access: Access::Single(field!(estimator.lens.tilt_direction_degrees), ROTATIONS, Unit::Degrees),
+        row: Some(Row {
+            part: Part::Movements,
+            label: "Tilt direction",
+            help: "The direction to which the lens is tilted, anticlockwise as seen from behind the camera: 0 is down, 90 to the right, which photographers call swing.",
+            shown: |settings| has_lens(settings) && settings.estimator.lens.tilt_degrees != 0.0,
+            widget: Widget::Slider(Slider { range: |_| [-180.0, 180.0], decimals: Some(0), ..EVEN }),
         }),
     },
     Setting {
