@@ -59,7 +59,8 @@ point "${box[@]}"
 save viewer.png
 
 press o
-click_at "${box[@]}"
+# The drawing stands below the picture, which is smaller now.
+click_at 965 150
 save optics.png
 press o
 

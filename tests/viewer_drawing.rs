@@ -3,10 +3,12 @@
 mod common;
 
 use common::run;
-use common::viewer::Viewer;
+use common::viewer::{PANEL, Viewer};
 use thinlens::scene;
 
 const SIZE: [u16; 2] = [800, 720];
+/// The size of the picture when the drawing stands below it.
+const OPEN: [u16; 2] = [800, 400];
 
 /// A wide open picture of the scene, which is quick.
 const QUICK: [&str; 2] = ["-n", "2"];
@@ -20,7 +22,7 @@ fn the_optics_are_those_of_the_pixel_that_was_clicked() {
     let scene = scene::load("version-4").expect("a built-in scene");
     let expect = |pixel: [f32; 2], focal_distance: f32| {
         let half = (0.5 * scene.camera.vfov_radians).tan();
-        let [width, height] = SIZE.map(f64::from);
+        let [width, height] = OPEN.map(f64::from);
         let [x, y] = pixel.map(f64::from);
         let f = f64::from(focal_distance);
         let p = [f * half * (2.0 * x - width) / height, f * half * (1.0 - 2.0 * y / height), f];
@@ -30,7 +32,7 @@ fn the_optics_are_those_of_the_pixel_that_was_clicked() {
             })
         });
     };
-    expect([400.5, 360.5], scene.lens.focal_distance);
+    expect([400.5, 200.5], scene.lens.focal_distance);
     viewer.until(
         "clicking",
         |viewer| viewer.diagram.borrow().is_some_and(|(pixel, _)| pixel == [650.5, 201.5]),
@@ -59,7 +61,7 @@ fn the_drawing_in_the_viewer_is_the_saved_one() {
         let text = read(file).expect("it is saved");
         let size = text.split("viewBox=\"0 0 ").nth(1).and_then(|rest| rest.split('"').next());
         let drawing_size = size.expect("a size").replace(' ', "x");
-        let picture_size = format!("{}x{}", SIZE[0], SIZE[1]);
+        let picture_size = format!("{}x{}", OPEN[0], OPEN[1]);
         let options =
             ["diagram", "-q", "-o", "same.svg", "-s", &picture_size, "--drawing-size", &drawing_size];
         let ran = run(&viewer.folder, &[&options[..], more].concat());
@@ -78,6 +80,40 @@ fn the_drawing_in_the_viewer_is_the_saved_one() {
     viewer.rest();
     saved("the view from above", "lens-3.svg", &["--to-scale", "--from-above"]);
     viewer.close();
+}
+
+/// Catches a drawing that lies over the picture, a picture that is not refitted, a legend or a strip out of reach, and a
+/// height that is forgotten.
+#[test]
+fn the_drawing_stands_below_the_picture() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let options = ["--size", "800x720", "--validation", "-n", "2"];
+    let viewer = Viewer::start_in(folder.path(), SIZE, &options);
+    viewer.wait_until_done();
+    let is = |size: [u16; 2]| move |viewer: &Viewer| viewer.picture_size() == size;
+    viewer.click("Optics", is(OPEN));
+    viewer.wait_until_done();
+    // The mark of the pixel whose optics are drawn is in the middle.
+    viewer.expect_rows("the picture", 190, 0, &QUICK);
+    let strip = || viewer.controls.borrow()["Drawing of the optics"];
+    let below = [PANEL, OPEN[1], OPEN[0], SIZE[1] - OPEN[1]].map(i32::from);
+    assert_eq!(strip(), below);
+
+    // The edge follows the hand, and the strip goes with the rest.
+    let [x, y, width, height] = viewer.controls.borrow()["Edge of the drawing"];
+    let edge = [x + width / 2, y + height / 2];
+    viewer.until("a lower strip", is([OPEN[0], OPEN[1] + 60]), || {
+        viewer.drag_picture(1, edge, [edge[0], edge[1] + 60])
+    });
+    viewer.until("hiding", is([SIZE[0] + PANEL, SIZE[1]]), || viewer.press("h"));
+    viewer.until("showing", is([OPEN[0], OPEN[1] + 60]), || viewer.press("h"));
+    viewer.close();
+
+    let again = Viewer::start_in(folder.path(), SIZE, &["--validation"]);
+    again.wait_until_done();
+    assert_eq!(again.picture_size(), [OPEN[0], OPEN[1] + 60], "the height is forgotten");
+    again.click("Optics", is(SIZE));
+    again.close();
 }
 
 /// Catches a part of the drawing that cannot be moved, that moves something else, or that does not stay under the

@@ -126,23 +126,24 @@ fn the_window_follows_the_scale_of_the_display() {
     start("1", [500, 400]).close();
 }
 
-/// Catches a window that is left outside when the viewer's window shrinks, and a legend under it.
+/// Catches a drawing and a legend that are left outside when the window shrinks, and a legend under the drawing.
 #[test]
-fn windows_stay_within_reach() {
-    let mut viewer = Viewer::start([900, 700], &["-n", "1", "--overlay", "depth"]);
+fn everything_stays_within_reach() {
+    let viewer = Viewer::start([900, 700], &["-n", "1", "--overlay", "depth"]);
     viewer.wait_until_done();
-    let legend = |viewer: &Viewer, [x, y]: [i16; 2]| viewer.screen([x, y], [240, 1]);
-    viewer.click("Optics", |viewer| viewer.diagram.borrow().is_some());
-    let right = |viewer: &Viewer| {
-        let [x, _, width, _] = viewer.controls.borrow()["Optics window"];
-        x + width
+    viewer.click("Optics", |viewer| viewer.picture_size() == [900, 380]);
+    viewer.rest();
+    // The legend is in the lower right corner of the picture.
+    let is_dark = |viewer: &Viewer, [right, bottom]: [i16; 2]| {
+        let row = viewer.screen([right - 264, bottom - 16], [240, 1]);
+        row.iter().all(|pixel| pixel.iter().all(|level| *level < 90))
     };
-    viewer.wait_for("the drawing", |viewer| viewer.controls.borrow().contains_key("Optics window"));
-    // The legend is in the upper right corner, above the drawing.
-    let dark = |row: &[[u8; 3]]| row.iter().all(|pixel| pixel.iter().all(|level| *level < 90));
-    viewer.wait_for("the legend", |viewer| dark(&legend(viewer, [955, 14])));
-    viewer.resize([500, 400]);
-    viewer.wait_for("the drawing in the window", |viewer| right(viewer) <= 820);
+    viewer.wait_for("the legend", |viewer| is_dark(viewer, [1220, 380]));
+    viewer.xdotool("search --class thinlens windowsize 820 400");
+    viewer.wait_for("a lower picture", |viewer| viewer.picture_size() == [500, 140]);
+    viewer.rest();
+    assert_eq!(viewer.controls.borrow()["Drawing of the optics"], [320, 140, 500, 260]);
+    viewer.wait_for("the legend", |viewer| is_dark(viewer, [820, 140]));
     viewer.close();
 }
 

@@ -14,10 +14,12 @@ pub(super) struct Area {
 }
 
 impl Area {
-    /// What is left of a window of this many pixels beside a column of this many points.
-    pub(super) fn beside(column: f32, window: [u32; 2], scale: f32) -> Self {
-        let left = ((column * scale).round() as u32).min(window[0].saturating_sub(1));
-        Self { corner: [left, 0], pixels: [window[0] - left, window[1]], scale }
+    /// What is left of a window of this many pixels beside a column and above a strip of so many points.
+    pub(super) fn beside([column, strip]: [f32; 2], window: [u32; 2], scale: f32) -> Self {
+        let taken =
+            |points: f32, axis: usize| ((points * scale).round() as u32).min(window[axis].saturating_sub(1));
+        let (left, below) = (taken(column, 0), taken(strip, 1));
+        Self { corner: [left, 0], pixels: [window[0] - left, window[1] - below], scale }
     }
 
     /// The upper left corner, in points.
@@ -45,35 +47,5 @@ impl Area {
     /// Where a place in the picture is, in points of the window. The place is in pixels of the picture.
     pub(super) fn in_window(&self, place: [f32; 2]) -> [f32; 2] {
         [0, 1].map(|axis| (place[axis] + self.corner[axis] as f32) / self.scale)
-    }
-}
-
-/// Where a window was drawn that the user can move: its position and size in points.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Placed(Option<[[f32; 2]; 2]>);
-
-impl Placed {
-    /// Notes where the current window is.
-    pub(super) fn note(&mut self, ui: &Ui) {
-        self.0 = Some([ui.window_pos(), ui.window_size()]);
-    }
-
-    /// The position and size with which the window lies in the area, if it did not when it was drawn last.
-    pub(super) fn moved_into(&self, area: &Area) -> Option<[[f32; 2]; 2]> {
-        let [position, size] = self.0?;
-        let (min, room) = (area.min(), area.size());
-        let size_within = [0, 1].map(|axis| size[axis].min(room[axis].floor()));
-        let within =
-            [0, 1].map(|axis| position[axis].min(min[axis] + room[axis] - size_within[axis]).max(min[axis]));
-        (within != position || size_within != size).then_some([within, size_within])
-    }
-
-    /// Whether the window covers a part of this rectangle, which is given by its upper left corner and its size.
-    pub(super) fn covers(&self, [min, size]: [[f32; 2]; 2]) -> bool {
-        self.0.is_some_and(|[position, extent]| {
-            (0..2).all(|axis| {
-                position[axis] < min[axis] + size[axis] && min[axis] < position[axis] + extent[axis]
-            })
-        })
     }
 }

@@ -23,6 +23,8 @@ pub struct Memory {
     pub recent: Vec<PathBuf>,
     /// Whether the drawing of the optics was open.
     pub optics: bool,
+    /// The height of the strip with the drawing of the optics in points.
+    pub optics_height: Option<f32>,
     /// The width of the panel in points.
     pub panel_width: Option<f32>,
     /// The sections of the panel that were opened or closed, and whether they are open.

@@ -1,7 +1,6 @@
 //! The state of the panel: the settings that it edits, and what it needs for that. `ui` draws it.
 
 use super::Options;
-use super::area::Placed;
 use super::guide::Guide;
 use super::memory::Memory;
 use super::message::{Kind, Messages, Offer};
@@ -25,6 +24,11 @@ const WIDTH: f32 = 320.0;
 const MIN_WIDTH: f32 = 240.0;
 /// The panel takes at most this share of the window.
 const MAX_SHARE: f32 = 0.8;
+/// The height of the strip below the picture unless the user has changed it, and the lowest one, in points.
+const STRIP: f32 = 320.0;
+const MIN_STRIP: f32 = 160.0;
+/// The strip takes at most this share of the window.
+const MAX_STRIP_SHARE: f32 = 0.65;
 
 /// The panel's state.
 pub(super) struct Panel {
@@ -68,7 +72,7 @@ pub(super) struct Panel {
     pub(super) layout: Layout,
 }
 
-/// The state of the window that draws the optics.
+/// The state of the strip below the picture that draws the optics.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Optics {
     pub(super) open: bool,
@@ -80,7 +84,8 @@ pub(super) struct Optics {
     pub(super) pin: Pin,
     /// The part of the drawing that is being moved.
     pub(super) held: Option<HeldPart>,
-    pub(super) placed: Placed,
+    /// The height of the strip below the picture in points, as the user has set it.
+    pub(super) height: f32,
 }
 
 /// The place in the picture whose optics are drawn.
@@ -128,7 +133,7 @@ impl Default for Optics {
             to_scale: false,
             pin: Pin { share: [0.5; 2], depth: None },
             held: None,
-            placed: Placed::default(),
+            height: STRIP,
         }
     }
 }
@@ -149,7 +154,8 @@ pub(super) type Layout = Vec<(&'static str, [i32; 4])>;
 pub(super) struct State {
     pub(super) settings: Settings,
     initial: Settings,
-    pin: Pin,
+    /// The depth that the point in the drawing of the optics was moved to. Which pixel is drawn is no change.
+    depth: Option<f64>,
 }
 
 pub(super) fn builtin(name: &Path) -> Option<&'static Builtin> {
@@ -164,11 +170,7 @@ impl Panel {
         let opened = options.memory.recent.iter().filter(is_scene).cloned();
         let mut panel = Self {
             initial: options.initial.clone(),
-            accepted: State {
-                settings: settings.clone(),
-                initial: options.initial.clone(),
-                pin: Optics::default().pin,
-            },
+            accepted: State { settings: settings.clone(), initial: options.initial.clone(), depth: None },
             zoom_lock: ZoomLock::new(&settings.estimator),
             image: settings.estimator.aperture.image.clone(),
             settings,
@@ -178,7 +180,11 @@ impl Panel {
             to_open: None,
             messages: Messages::default(),
             typing: None,
-            optics: Optics { open: options.memory.optics, ..Optics::default() },
+            optics: Optics {
+                open: options.memory.optics,
+                height: options.memory.optics_height.unwrap_or(STRIP),
+                ..Optics::default()
+            },
             held: None,
             paused: false,
             save_when_done: false,
@@ -231,6 +237,14 @@ impl Panel {
         if self.hidden { 0.0 } else { self.width.max(MIN_WIDTH).min(MAX_SHARE * window).floor() }
     }
 
+    /// The height of the strip that the drawing of the optics takes in a window of this height, in points.
+    pub(super) fn strip(&self, window: f32) -> f32 {
+        if self.hidden || !self.optics.open {
+            return 0.0;
+        }
+        self.optics.height.max(MIN_STRIP).min(MAX_STRIP_SHARE * window).floor()
+    }
+
     /// What to remember for the next run, with these sizes of the window.
     pub(super) fn memory(&self, sizes: BTreeMap<u32, [u32; 2]>) -> Memory {
         Memory {
@@ -239,6 +253,7 @@ impl Panel {
             arguments: self.settings.arguments_from_anywhere(),
             recent: self.recent.clone(),
             optics: self.optics.open,
+            optics_height: Some(self.optics.height),
             panel_width: Some(self.width),
             folds: self.folds.clone(),
             focus_stays: !self.follows,
@@ -253,13 +268,13 @@ impl Panel {
     }
 
     fn full_state(&self) -> State {
-        State { settings: self.settings.clone(), initial: self.initial.clone(), pin: self.optics.pin }
+        State { settings: self.settings.clone(), initial: self.initial.clone(), depth: self.optics.pin.depth }
     }
 
     /// Restores a state.
     pub(super) fn restore(&mut self, state: State) {
         let size = self.settings.estimator.size;
-        (self.settings, self.initial, self.optics.pin) = (state.settings, state.initial, state.pin);
+        (self.settings, self.initial, self.optics.pin.depth) = (state.settings, state.initial, state.depth);
         self.settings.estimator.size = size;
     }
 

@@ -27,15 +27,15 @@ use crate::diagram::{Diagram, sharp_depths};
 use crate::renderer::{Picked, Progress};
 use crate::scene::CameraModel;
 use crate::settings::Part;
-use imgui::{Condition, MouseCursor, StyleColor, StyleVar, Ui, WindowFlags};
-use widgets::{Folds, LONGEST, Layout, button, combo, from_end, note_item, pressed, section, tick, tooltip};
+use imgui::{Condition, StyleColor, StyleVar, Ui, WindowFlags};
+use widgets::{
+    Folds, LONGEST, Layout, Side, button, combo, edge, from_end, note_item, pressed, section, tick, tooltip,
+};
 
 /// The space around what lies over the picture, in points.
 const MARGIN: f32 = 12.0;
 /// The least height of the sections. In a lower window, the whole panel scrolls.
 const MIN_SECTIONS: f32 = 150.0;
-/// The width of the strip with which the panel is made wider, in points.
-const EDGE: f32 = 6.0;
 const BACKGROUND: [f32; 4] = [0.08, 0.09, 0.11, 1.0];
 
 /// What the panel shows besides the settings.
@@ -105,7 +105,7 @@ impl Panel {
             ui.window("##panel")
                 .position([0.0; 2], Condition::Always)
                 // The panel covers whole pixels, and nothing else paints them.
-                .size([width.ceil(), area.max()[1].ceil()], Condition::Always)
+                .size([width.ceil(), ui.io().display_size[1].ceil()], Condition::Always)
                 .flags(
                     WindowFlags::NO_TITLE_BAR
                         | WindowFlags::NO_MOVE
@@ -130,8 +130,7 @@ impl Panel {
                 Some(Err(error)) => self.messages.fail(error.to_string()),
                 None => {}
             }
-            let optics = self.optics.open.then_some(&self.optics.placed);
-            overlay::legend(ui, &self.settings, area, optics);
+            overlay::legend(ui, &self.settings, area);
         }
         self.guide = self.guide.and_then(|guide| guide.draw(ui, area));
         action = self.messages.draw(ui, area, &mut layout).map(Action::Accept).or(action);
@@ -274,33 +273,12 @@ impl Panel {
         action
     }
 
-    /// Lets the user drag the right edge of the panel. The strip lies in the panel, where no other window covers it.
+    /// Lets the user drag the right edge of the panel.
     fn edge(&mut self, ui: &Ui, area: &Area, layout: &mut Layout) {
-        let ([x, _], [_, height]) = (area.min(), area.size());
-        let _bare = (
-            ui.push_style_var(StyleVar::WindowPadding([0.0; 2])),
-            ui.push_style_var(StyleVar::WindowMinSize([1.0; 2])),
-        );
-        ui.window("##edge")
-            .position([x - EDGE, 0.0], Condition::Always)
-            .size([EDGE, height], Condition::Always)
-            .flags(
-                WindowFlags::NO_DECORATION
-                    | WindowFlags::NO_BACKGROUND
-                    | WindowFlags::NO_NAV
-                    | WindowFlags::NO_SAVED_SETTINGS
-                    | WindowFlags::NO_FOCUS_ON_APPEARING,
-            )
-            .build(|| {
-                ui.invisible_button("##line", [EDGE, height]);
-                note_item(ui, "Edge of the panel", layout);
-                if ui.is_item_active() {
-                    self.width = (ui.io().mouse_pos[0] + 0.5 * EDGE).round();
-                }
-                if ui.is_item_active() || ui.is_item_hovered() {
-                    ui.set_mouse_cursor(Some(MouseCursor::ResizeEW));
-                }
-            });
+        let ([x, _], [_, height]) = (area.min(), ui.io().display_size);
+        if let Some(place) = edge(ui, "Edge of the panel", [x, 0.0], Side::Right(height), layout) {
+            self.width = place.round();
+        }
     }
 
     /// Notes that the picture is held. The line starts in the middle.

@@ -1,10 +1,10 @@
-//! The window that draws the optics of one pixel.
+//! The strip below the picture that draws the optics of one pixel.
 
-use super::MARGIN;
+use super::BACKGROUND;
 use super::drawing::paint;
 use super::grasp::note_handles;
 use super::paper::{Color, FAINT, FRAME, LETTER, Paper, View};
-use super::widgets::{Layout, note_item, note_window, tooltip};
+use super::widgets::{Layout, Side, edge, note_item, note_window, tooltip};
 use crate::app::area::Area;
 use crate::app::panel::{Optics, Shown};
 use crate::app::save_as::{absolute, unused_name};
@@ -14,7 +14,7 @@ use crate::error::Result;
 use crate::output;
 use crate::settings::Estimator;
 use glam::DVec3;
-use imgui::{Condition, StyleColor, Ui, WindowFlags};
+use imgui::{Condition, StyleColor, StyleVar, Ui, WindowFlags};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
@@ -48,7 +48,7 @@ const DRAWINGS: [(Shown, &str, &str); 3] = [
 ];
 
 impl Optics {
-    /// Draws the window, if it is open. Returns the file that the drawing was saved to.
+    /// Draws the strip below the picture, if it is open. Returns the file that the drawing was saved to.
     pub(super) fn draw(
         &mut self,
         ui: &Ui,
@@ -64,23 +64,31 @@ impl Optics {
         let mut saved = None;
         let moved = diagram.zip(self.pin.depth).map(|(diagram, depth)| diagram.with_point_at(depth));
         let diagram = moved.as_ref().or(diagram);
-        let ([left, _], [_, bottom], [width, height]) = (area.min(), area.max(), area.size());
-        let size = [(width - 2.0 * MARGIN).clamp(200.0, 1100.0), (0.46 * height).max(200.0)];
-        let (mut open, mut placed) = (true, self.placed);
-        let mut window = ui
-            .window("Optics")
-            .position([left + MARGIN, bottom - size[1] - MARGIN], Condition::FirstUseEver)
-            .size(size, Condition::FirstUseEver);
-        if let Some([position, size]) = placed.moved_into(area) {
-            window = window.position(position, Condition::Always).size(size, Condition::Always);
-        }
-        window
-            .opened(&mut open)
+        let ([left, _], [_, top], [_, bottom]) = (area.min(), area.max(), ui.io().display_size);
+        let width = area.size()[0];
+        let style = (
+            ui.push_style_var(StyleVar::WindowRounding(0.0)),
+            ui.push_style_var(StyleVar::WindowBorderSize(0.0)),
+            ui.push_style_color(StyleColor::WindowBg, BACKGROUND),
+        );
+        ui.window("##optics")
+            .position([left, top], Condition::Always)
+            // The strip covers whole pixels, and nothing else paints them.
+            .size([width.ceil(), (bottom - top).ceil()], Condition::Always)
             // `background` paints only what the views leave free: a software device is slow to paint an area twice.
-            .flags(WindowFlags::NO_BACKGROUND)
+            .flags(
+                WindowFlags::NO_TITLE_BAR
+                    | WindowFlags::NO_MOVE
+                    | WindowFlags::NO_RESIZE
+                    | WindowFlags::NO_SCROLLBAR
+                    | WindowFlags::NO_SCROLL_WITH_MOUSE
+                    | WindowFlags::NO_COLLAPSE
+                    | WindowFlags::NO_SAVED_SETTINGS
+                    | WindowFlags::NO_BACKGROUND
+                    | WindowFlags::NO_BRING_TO_FRONT_ON_FOCUS,
+            )
             .build(|| {
-                placed.note(ui);
-                note_window(ui, "Optics window", layout);
+                note_window(ui, "Drawing of the optics", layout);
                 let ([left, top], [width, height]) = (ui.cursor_screen_pos(), ui.content_region_avail());
                 let top_of_papers = top + ui.frame_height_with_spacing();
                 // Without a drawing, nothing else paints the area of the views.
@@ -118,7 +126,10 @@ impl Optics {
                     None => ui.text_disabled("waiting for the device ..."),
                 }
             });
-        (self.open, self.placed) = (open, placed);
+        drop(style);
+        if let Some(place) = edge(ui, "Edge of the drawing", [left, top], Side::Top(width), layout) {
+            self.height = (bottom - place).round();
+        }
         saved
     }
 
@@ -238,10 +249,10 @@ fn scene_side(mut paper: Paper<'_>, side: View, diagram: &Diagram) {
     });
 }
 
-/// Paints the background of the window, except for its title and this rectangle, which the views cover.
+/// Paints the background of the strip, except for this rectangle, which the views cover.
 fn background(ui: &Ui, [[left, top], [right, bottom]]: [[f32; 2]; 2]) {
     let ([x, y], [width, height]) = (ui.window_pos(), ui.window_size());
-    let (y, end_x, end_y) = (y + ui.frame_height(), x + width, y + height);
+    let (end_x, end_y) = (x + width, y + height);
     let color = ui.style_color(StyleColor::WindowBg);
     let list = ui.get_window_draw_list();
     list.with_clip_rect([x, y], [end_x, end_y], || {

@@ -1,7 +1,7 @@
 //! The legend of an overlay.
 
 use super::MARGIN;
-use crate::app::area::{Area, Placed};
+use crate::app::area::Area;
 use crate::settings::Settings;
 use imgui::{Condition, Ui, WindowFlags};
 
@@ -9,15 +9,17 @@ const WIDTH: f32 = 260.0;
 /// The height of the bar with the space below it, in points.
 const BAR: f32 = 18.0;
 
-/// Draws the legend at the lower right of the picture, or in another corner if the drawing of the optics is there.
-pub(super) fn legend(ui: &Ui, settings: &Settings, area: &Area, optics: Option<&Placed>) {
+/// Draws the legend at the lower right of the picture.
+pub(super) fn legend(ui: &Ui, settings: &Settings, area: &Area) {
     let Some(overlay) = settings.view.overlay else {
         return;
     };
     let entry = overlay.entry();
     let labels = (entry.labels)(settings.overlay_scale(overlay), settings.estimator.lens.focal_distance);
+    let [right, bottom] = area.max();
     ui.window("##legend")
-        .position(free_corner(ui, area, optics), Condition::Always)
+        .position([right - MARGIN, bottom - MARGIN], Condition::Always)
+        .position_pivot([1.0; 2])
         .size([WIDTH, height(ui)], Condition::Always)
         .flags(
             WindowFlags::NO_DECORATION
@@ -43,15 +45,6 @@ pub(super) fn legend(ui: &Ui, settings: &Settings, area: &Area, optics: Option<&
 fn height(ui: &Ui) -> f32 {
     let style = ui.clone_style();
     2.0 * (ui.text_line_height() + style.window_padding[1] + style.item_spacing[1]) + BAR
-}
-
-/// Where the legend lies in the first corner of the picture that the drawing of the optics leaves free.
-fn free_corner(ui: &Ui, area: &Area, optics: Option<&Placed>) -> [f32; 2] {
-    let (min, max, size) = (area.min(), area.max(), [WIDTH, height(ui)]);
-    let ends = [0, 1].map(|axis| [min[axis] + MARGIN, max[axis] - MARGIN - size[axis]]);
-    let corners = [[1, 1], [1, 0], [0, 1], [0, 0]].map(|[x, y]| [ends[0][x], ends[1][y]]);
-    let is_free = |corner: &&[f32; 2]| !optics.is_some_and(|placed| placed.covers([**corner, size]));
-    *corners.iter().find(is_free).unwrap_or(&corners[0])
 }
 
 /// Draws a bar that blends from colour to colour in linear light, as the overlay does.

@@ -2,9 +2,14 @@
 
 pub(super) use crate::app::panel::Layout;
 
-use imgui::{ItemHoveredFlags, MouseButton, MouseCursor, StyleColor, TreeNodeFlags, Ui};
+use imgui::{
+    Condition, ItemHoveredFlags, MouseButton, MouseCursor, StyleColor, StyleVar, TreeNodeFlags, Ui,
+    WindowFlags,
+};
 use std::collections::BTreeMap;
 
+/// The width of the strip with which a part of the window is made larger, in points.
+const EDGE: f32 = 6.0;
 /// The width of a line of a tooltip, in points.
 const TOOLTIP_WIDTH: f32 = 280.0;
 /// The space between a tooltip and what it explains, and around its text, in points.
@@ -214,4 +219,52 @@ pub(super) fn combo(
             tooltip(ui, help);
         }
     }
+}
+
+/// An edge of a part of the window, with its length in points.
+#[derive(Clone, Copy)]
+pub(super) enum Side {
+    Right(f32),
+    Top(f32),
+}
+
+/// Lets the user drag an edge that begins at this place. The strip with which it is grasped lies within the part of the
+/// window, where nothing else covers it. Gives the place of the edge while it is dragged.
+pub(super) fn edge(
+    ui: &Ui,
+    name: &'static str,
+    [x, y]: [f32; 2],
+    side: Side,
+    layout: &mut Layout,
+) -> Option<f32> {
+    let _bare = (
+        ui.push_style_var(StyleVar::WindowPadding([0.0; 2])),
+        ui.push_style_var(StyleVar::WindowMinSize([1.0; 2])),
+    );
+    let (position, size, cursor, to_edge) = match side {
+        Side::Right(length) => ([x - EDGE, y], [EDGE, length], MouseCursor::ResizeEW, 0.5 * EDGE),
+        Side::Top(length) => ([x, y], [length, EDGE], MouseCursor::ResizeNS, -0.5 * EDGE),
+    };
+    let mut place = None;
+    ui.window(format!("##{name}"))
+        .position(position, Condition::Always)
+        .size(size, Condition::Always)
+        .flags(
+            WindowFlags::NO_DECORATION
+                | WindowFlags::NO_BACKGROUND
+                | WindowFlags::NO_NAV
+                | WindowFlags::NO_SAVED_SETTINGS
+                | WindowFlags::NO_FOCUS_ON_APPEARING,
+        )
+        .build(|| {
+            ui.invisible_button("##line", size);
+            note_item(ui, name, layout);
+            if ui.is_item_active() {
+                place = Some(ui.io().mouse_pos[usize::from(matches!(side, Side::Top(_)))] + to_edge);
+            }
+            if ui.is_item_active() || ui.is_item_hovered() {
+                ui.set_mouse_cursor(Some(cursor));
+            }
+        });
+    place
 }

@@ -217,7 +217,8 @@ fn percent(scale: f64) -> u32 {
 /// The part of a window of this many pixels that the picture takes.
 fn area(panel: &Panel, window: [u32; 2], scale: f64) -> Area {
     let scale = scale as f32;
-    Area::beside(panel.column(window[0] as f32 / scale), window, scale)
+    let [width, height] = window.map(|extent| extent as f32 / scale);
+    Area::beside([panel.column(width), panel.strip(height)], window, scale)
 }
 
 /// Writes input events to the log. Returns whether a button or a key changed.
@@ -254,10 +255,10 @@ impl OpenWindow {
         let mut panel = Panel::new(options);
         let scale = scale_of(event_loop);
         let [width, height] = match (options.size, options.memory.sizes.get(&percent(scale))) {
-            // The panel stands beside the picture.
+            // The panel stands beside the picture, and the drawing of the optics below it.
             (Some([width, height]), _) => {
-                let column = (f64::from(panel.column(f32::INFINITY)) * scale).round() as u32;
-                [width + column, height]
+                let pixels = |points: f32| (f64::from(points) * scale).round() as u32;
+                [width + pixels(panel.column(f32::INFINITY)), height + pixels(panel.strip(f32::INFINITY))]
             }
             (None, Some(size)) => *size,
             (None, None) => DEFAULT_SIZE.map(|points| (points * scale).round() as u32),
