@@ -3,9 +3,9 @@
 mod common;
 
 use anyhow::{Result, ensure};
-use common::{Gpu, circle_of_confusion, film, pixels, prove, settings_of};
+use common::{Gpu, circle_of_confusion, film, pixels, prove, scene_of, settings_of};
 use glam::Vec3;
-use thinlens::scene::{self, Background, Box, Emissive, Scene, SceneRef};
+use thinlens::scene::{self, Background, Box, Emissive, Extents, Scene, SceneRef};
 use thinlens::settings::Settings;
 
 const SIZE: [u32; 2] = [160, 120];
@@ -240,4 +240,28 @@ fn the_boxes_of_the_book_blur_as_the_book_says() {
         Ok(format!("px measured (of the formula): {}", figures.join(", ")))
     };
     prove(check, &["lens_radius_times_1.05", "lens_radius_square_root", "focal_distance_times_1.02"]);
+}
+
+/// Catches depths along the ray instead of along the axis, things that count although they are beside the picture or
+/// behind the camera, and a ground that begins at the camera.
+#[test]
+fn a_picture_has_the_depths_of_what_is_in_it() {
+    let sphere =
+        |[x, z]: [f64; 2]| format!("[[sphere]]\ncenter = [{x}, 0, {z}]\nradius = 1\nmaterial = \"m\"\n");
+    let spheres = [[0.0, -10.0], [5.0, -20.0], [30.0, -10.0], [0.0, 10.0]].map(sphere).concat();
+    let scene = scene_of(&format!(
+        "[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, -1]\nvfov_degrees = 90\nlens_diameter = 0.1\nfocal_distance = 9\n\
+         [ambient]\nradiance = 1\n[matte.m]\nka = 0.5\nkd = 0.5\ncolor = [1, 1, 1]\n\
+         [[plane]]\npoint = [0, -2, 0]\nnormal = [0, 1, 0]\nmaterial = \"m\"\n{spheres}"
+    ));
+    let depths = Extents::of(&scene).depths(&scene.camera, [100, 100]);
+    let expected = [[9.0, 11.0], [19.0, 21.0]];
+    assert_eq!(depths.shapes.len(), expected.len(), "{:?}", depths.shapes);
+    for (range, expected) in depths.shapes.iter().zip(expected) {
+        assert!((0..2).all(|end| (range[end] - expected[end]).abs() < 1e-9), "{range:?}, not {expected:?}");
+    }
+    // The lowest row looks down by 45 degrees, and the horizon is in the picture.
+    let [[nearest, farthest]] = depths.planes[..] else { panic!("{:?}", depths.planes) };
+    assert!((nearest - 2.0).abs() < 1e-9 && farthest == f64::INFINITY, "{nearest} to {farthest}");
+    assert!(depths.meet([1.0, 2.5]) && !depths.meet([0.5, 1.5]) && depths.meet([100.0, f64::INFINITY]));
 }

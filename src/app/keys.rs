@@ -6,7 +6,7 @@ use winit::event::WindowEvent;
 use winit::keyboard::{Key as WinitKey, ModifiersState, NamedKey};
 
 /// What the mouse and the keys do, as shown to the user.
-const LIST: [(&str, &str); 23] = [
+const LIST: [(&str, &str); 24] = [
     ("Right click, F", "focus on what is under the pointer"),
     ("Ctrl + wheel", "move the focal plane"),
     ("Click", "say what is there; while Optics is open, draw its optics"),
@@ -29,6 +29,7 @@ const LIST: [(&str, &str); 23] = [
     ("Tab, arrows, Space", "walk through the panel"),
     ("Ctrl + click, Enter", "type a number into a slider, such as 1/250, f/2.8 or 1.2 m"),
     ("Left, right", "move the slider under the pointer a little; with Shift, ten times as far"),
+    ("L", "the lesson: six steps that show what a lens does"),
     ("?, F1", "this list"),
 ];
 
@@ -93,6 +94,7 @@ pub(super) fn pressed(ui: &Ui) -> Option<Action> {
             (Key::H, Action::Hide),
             (Key::Home, Action::ResetCamera),
             (Key::V, Action::ViewAll),
+            (Key::L, Action::Lesson),
         ];
         plain.into_iter().find(|(key, _)| pressed(*key))
     };

@@ -31,6 +31,8 @@ pub struct Memory {
     pub folds: BTreeMap<String, bool>,
     /// Whether the focal distance stays as it is while the camera moves, and does not follow what was focused on.
     pub focus_stays: bool,
+    /// Whether the user has read the greeting, and then done something.
+    pub greeted: bool,
 }
 
 impl Memory {

@@ -26,6 +26,8 @@ pub(super) enum Offer {
     KeepBoth(Kind),
     /// Save the picture once it has all of its points.
     SaveWhenDone,
+    /// Use an image that is no picture of thinlens as the shape of the aperture.
+    UseAsAperture,
 }
 
 impl Offer {
@@ -35,6 +37,7 @@ impl Offer {
             Self::Replace(_) => "Replace it",
             Self::KeepBoth(_) => "Keep both",
             Self::SaveWhenDone => "Save when done",
+            Self::UseAsAperture => "Use as aperture",
         }
     }
 }

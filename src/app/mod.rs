@@ -8,6 +8,7 @@ mod graphics;
 mod guide;
 mod history;
 mod keys;
+mod lesson;
 mod loader;
 mod memory;
 mod message;

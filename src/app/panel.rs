@@ -2,6 +2,7 @@
 
 use super::Options;
 use super::guide::Guide;
+use super::lesson::{Lesson, Seen};
 use super::memory::Memory;
 use super::message::{Kind, Messages, Offer};
 use super::save_as::{self, Files, SaveAs, absolute};
@@ -10,7 +11,7 @@ use super::zoom_lock::ZoomLock;
 use crate::diagram::{Part, Scale};
 use crate::error::{Error, Result};
 use crate::output::{self, Origin, PictureFormat};
-use crate::scene::{self, ApertureImage, BUILTINS, Builtin, SceneRef};
+use crate::scene::{self, Aperture, ApertureImage, BUILTINS, Builtin, Depths, Extents, SceneRef};
 use crate::settings::{Called, Settings};
 use glam::DVec2;
 use std::collections::BTreeMap;
@@ -42,6 +43,8 @@ pub(super) struct Panel {
     pub(super) image: Option<ApertureImage>,
     /// The scenes to choose from: the built-in ones and those that were opened.
     pub(super) scenes: Vec<PathBuf>,
+    /// The file that may become the aperture, if one is offered.
+    offered_image: Option<PathBuf>,
     /// Recent files, with the latest first.
     pub(super) recent: Vec<PathBuf>,
     pub(super) files: Files,
@@ -61,6 +64,9 @@ pub(super) struct Panel {
     pub(super) follows: bool,
     /// What the next clicks on the picture are for, if the user is guided.
     pub(super) guide: Option<Guide>,
+    /// Whether those who are new are greeted: until they do something.
+    pub(super) greets: bool,
+    pub(super) lesson: Option<Lesson>,
     pub(super) keys: bool,
     /// The width of the panel in points, as the user has set it.
     pub(super) width: f32,
@@ -68,6 +74,8 @@ pub(super) struct Panel {
     pub(super) hidden: bool,
     /// The sections that were opened or closed, and whether they are open.
     pub(super) folds: BTreeMap<String, bool>,
+    /// Where the shapes of the scene are.
+    extents: (SceneRef, Extents),
     /// Where the controls were drawn last, to notice when they move.
     pub(super) layout: Layout,
 }
@@ -173,8 +181,8 @@ impl Panel {
             accepted: State { settings: settings.clone(), initial: options.initial.clone(), depth: None },
             zoom_lock: ZoomLock::new(&settings.estimator),
             image: settings.estimator.aperture.image.clone(),
-            settings,
             scenes: BUILTINS.iter().map(|builtin| builtin.name.into()).chain(opened).collect(),
+            offered_image: None,
             recent: options.memory.recent.clone(),
             files: Files::default(),
             to_open: None,
@@ -190,10 +198,14 @@ impl Panel {
             save_when_done: false,
             follows: !options.memory.focus_stays,
             guide: None,
+            greets: !options.memory.greeted,
+            lesson: None,
             keys: false,
             width: options.memory.panel_width.unwrap_or(WIDTH),
             hidden: false,
             folds: options.memory.folds.clone(),
+            extents: (settings.estimator.scene.clone(), Extents::of(&settings.estimator.scene)),
+            settings,
             layout: Vec::new(),
         };
         panel.offer_scene();
@@ -223,6 +235,27 @@ impl Panel {
     pub(super) fn reset_camera(&mut self) {
         let (camera, initial) = (&mut self.settings.estimator.camera, &self.initial.estimator.camera);
         (camera.eye, camera.look_at, camera.up) = (initial.eye, initial.look_at, initial.up);
+    }
+
+    /// What the lesson looks at.
+    pub(super) fn seen(&self) -> Seen {
+        let Settings { estimator, samples, .. } = &self.settings;
+        Seen {
+            diameter: estimator.lens.diameter,
+            f_number: estimator.f_number(),
+            focal_distance: estimator.lens.focal_distance,
+            samples: *samples,
+            drawn: self.optics.open.then_some(self.optics.pin.share),
+        }
+    }
+
+    /// The depths of what the picture shows.
+    pub(super) fn depths(&mut self) -> Depths {
+        let estimator = &self.settings.estimator;
+        if self.extents.0 != estimator.scene {
+            self.extents = (estimator.scene.clone(), Extents::of(&estimator.scene));
+        }
+        self.extents.1.depths(&estimator.focused_camera(), estimator.size)
     }
 
     /// Says so if the picture cannot come out right.
@@ -257,6 +290,7 @@ impl Panel {
             panel_width: Some(self.width),
             folds: self.folds.clone(),
             focus_stays: !self.follows,
+            greeted: !self.greets,
         }
     }
 
@@ -332,6 +366,35 @@ impl Panel {
         self.offer_scene();
         if builtin(name).is_none() {
             self.remember(name);
+        }
+    }
+
+    /// Says why a file was not opened. An image without settings may be meant as the shape of the aperture.
+    pub(super) fn was_not_opened(&mut self, name: &Path, error: &Error) {
+        let is_image = PictureFormat::of(name) == Some(PictureFormat::Png);
+        if is_image && matches!(error, Error::NoOrigin { .. }) {
+            self.offered_image = Some(absolute(name));
+            let text = format!(
+                "{} has no settings that could be shown. It can be the shape of the aperture.",
+                name.display()
+            );
+            self.messages.ask(text, vec![Offer::UseAsAperture]);
+        } else {
+            self.messages.fail(error.to_string());
+        }
+    }
+
+    /// Gives the aperture the shape of the image that was offered.
+    pub(super) fn use_image(&mut self) {
+        match self.offered_image.take().map(|file| ApertureImage::read(&file)) {
+            Some(Ok(image)) => {
+                let aperture = &mut self.settings.estimator.aperture;
+                let anamorphic = aperture.anamorphic;
+                *aperture = Aperture { anamorphic, image: Some(image.clone()), ..Aperture::default() };
+                self.image = Some(image);
+            }
+            Some(Err(error)) => self.messages.fail(error.to_string()),
+            None => {}
         }
     }
 

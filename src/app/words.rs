@@ -10,10 +10,15 @@ const NO_BLUR: f64 = 0.05;
 
 /// A length with four digits, or "infinity".
 pub(super) fn length(value: f64) -> String {
+    with_digits(4, value)
+}
+
+/// A length with so many digits, or "infinity".
+pub(super) fn with_digits(digits: i32, value: f64) -> String {
     if value.is_infinite() {
         return "infinity".into();
     }
-    let decimals = (3 - value.abs().max(1e-9).log10().floor() as i32).clamp(0, 9);
+    let decimals = (digits - 1 - value.abs().max(1e-9).log10().floor() as i32).clamp(0, 9);
     format!("{value:.*}", usize::try_from(decimals).unwrap_or(0))
 }
 

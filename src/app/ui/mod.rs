@@ -6,6 +6,7 @@ mod drawing;
 mod files;
 mod grasp;
 mod lens;
+mod lesson;
 mod light;
 mod message;
 mod numbers;
@@ -76,6 +77,8 @@ pub(super) enum Action {
     Optics,
     /// Show or hide the list of keys.
     Keys,
+    /// Begin or leave the lesson.
+    Lesson,
     /// Hide everything but the picture, or show it.
     Hide,
     /// Write the picture to the file that is named.
@@ -131,6 +134,7 @@ impl Panel {
                 None => {}
             }
             overlay::legend(ui, &self.settings, area);
+            self.teach(ui, area, &mut layout);
         }
         self.guide = self.guide.and_then(|guide| guide.draw(ui, area));
         action = self.messages.draw(ui, area, &mut layout).map(Action::Accept).or(action);

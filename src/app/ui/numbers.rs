@@ -1,26 +1,59 @@
 //! The part of the panel that shows numbers: what is sharp, and what is under the pointer.
 
+use super::widgets::tooltip;
 use crate::app::panel::Panel;
-use crate::app::words::{self, length};
+use crate::app::words::{self, length, with_digits};
 use crate::renderer::Picked;
 use crate::scene::CameraModel;
 use imgui::Ui;
 
+/// The color of what needs attention.
+const NOTICE: [f32; 4] = [1.0, 0.72, 0.35, 1.0];
+
 impl Panel {
-    pub(super) fn numbers(&self, ui: &Ui, picked: Option<&Picked>) {
+    pub(super) fn numbers(&mut self, ui: &Ui, picked: Option<&Picked>) {
+        let depths = self.depths();
         let estimator = &self.settings.estimator;
         let (camera, lens) = (&estimator.camera, &estimator.lens);
         let focused = estimator.focused_camera();
         let seen = format!("{:.1} mm, {:.1}° high", camera.focal_length_mm(), focused.vfov_degrees());
+        let of_seen =
+            "The focal length, and the angle that the picture shows from its lower to its upper edge.";
         if estimator.model == CameraModel::ThinLens {
             let [near, far] = self.settings.depth_of_field();
             let focused = f64::from(lens.focal_distance);
-            ui.text(format!("sharp from {} to {}", length(near), length(far)));
-            let parts = [focused - near, far - focused, far - near].map(length);
-            ui.text(format!("{} in front, {} behind, {} in all", parts[0], parts[1], parts[2]));
+            let sharp = format!("sharp from {} to {}", length(near), length(far));
+            if depths.is_empty() || depths.meet([near, far]) {
+                ui.text(sharp);
+            } else {
+                ui.text_colored(NOTICE, format!("{sharp}: nothing is there"));
+            }
+            tooltip(
+                ui,
+                &format!(
+                    "The depth of field: what lies between these distances has a circle of confusion of at most {:.2} px. That is the tolerance, which you find under View. The orange marks of the focal plane's slider show where things are.",
+                    self.settings.tolerance_pixels()
+                ),
+            );
+            let parts = [focused - near, far - focused, far - near].map(|length| with_digits(3, length));
+            let sides = format!("{} in front, {} behind", parts[0], parts[1]);
+            let all = format!("{sides}, {} in all", parts[2]);
+            let fits = ui.calc_text_size(&all)[0] <= ui.content_region_avail()[0];
+            ui.text(if fits { all } else { sides });
+            tooltip(
+                ui,
+                "How far the depth of field reaches from the focal plane to the camera and to the horizon.",
+            );
             ui.text(format!("{seen}, hyperfocal at {}", length(self.settings.hyperfocal_distance())));
+            tooltip(
+                ui,
+                &format!(
+                    "{of_seen} If the lens is focused at the hyperfocal distance, everything is sharp from half of it to the horizon."
+                ),
+            );
         } else {
             ui.text(seen);
+            tooltip(ui, of_seen);
         }
         let Some(picked) = picked else {
             ui.text_disabled("point at something to see its blur");
@@ -37,6 +70,10 @@ impl Panel {
         ui.text(format!("{}, {} away", surface.material, length(surface.depth)));
         for line in words::blur(&self.settings, surface.point) {
             ui.text(line);
+            tooltip(
+                ui,
+                "The diameter of its circle of confusion: the spot on the film over which the lens spreads the light of one point.",
+            );
         }
     }
 }

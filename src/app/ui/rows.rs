@@ -5,13 +5,19 @@ use super::tolerance::tolerance;
 use super::widgets::{Layout, beside, combo, heading, note_item, points_at_item, tick, tooltip};
 use crate::app::panel::Panel;
 use crate::app::typing::Typing;
-use crate::scene::PLACES;
+use crate::scene::{Depths, PLACES};
 use crate::settings::{Access, Choice, Field, Part, Row, Setting, Settings, Slider, Widget, list};
 use glam::DVec3;
 use imgui::{Drag, Key, MouseButton, SliderFlags, StyleColor, Ui};
 
 /// An arrow key moves a slider by this part of its length, or by ten times as much with Shift.
 const STEP: f64 = 0.002;
+/// The setting whose slider shows at which depths the picture has something.
+const FOCUS: &str = "focal-distance";
+/// The marks for things in the picture.
+const THING: [f32; 4] = [1.0, 0.78, 0.35, 0.75];
+/// The height of a mark, and its least width, in points.
+const MARK: [f32; 2] = [2.0, 3.0];
 /// The background of a field whose text was refused.
 const REFUSED: [f32; 4] = [0.50, 0.10, 0.10, 1.0];
 
@@ -74,7 +80,13 @@ impl Panel {
         let id = format!("##{}", row.label);
         let mut of_units = false;
         match (&row.widget, &setting.access) {
-            (Widget::Slider(slider), _) => slide(ui, &id, setting, slider, &mut self.settings, &self.initial),
+            (Widget::Slider(slider), _) => {
+                slide(ui, &id, setting, slider, &mut self.settings, &self.initial);
+                if setting.flag == FOCUS {
+                    let ends = (slider.range)(&self.initial).map(f64::from);
+                    mark_depths(ui, &self.depths(), |depth| share(slider, ends, depth));
+                }
+            }
             (_, Access::Tolerance(field)) => {
                 of_units = true;
                 tolerance(ui, &id, row, field, &mut self.settings, layout);
@@ -200,6 +212,21 @@ fn slide(ui: &Ui, id: &str, setting: &Setting, slider: &Slider, settings: &mut S
     let flags = SliderFlags::NO_INPUT | SliderFlags::NO_ROUND_TO_FORMAT | SliderFlags::ALWAYS_CLAMP;
     if ui.slider_config(id, 0.0, 1.0).display_format("").flags(flags).build(&mut now) {
         setting.set_number(settings, rounded_to(slider, at(slider, ends, now)));
+    }
+}
+
+/// Marks on the slider that was drawn last where the things in the picture are.
+fn mark_depths(ui: &Ui, depths: &Depths, share: impl Fn(f64) -> f64) {
+    let ([left, _], [right, bottom]) = (ui.item_rect_min(), ui.item_rect_max());
+    // The middle of the knob keeps this distance from both ends.
+    let margin = 2.0 + 0.5 * ui.clone_style().grab_min_size;
+    let place = |depth: f64| left + margin + share(depth) as f32 * (right - left - 2.0 * margin);
+    let list = ui.get_window_draw_list();
+    for [near, far] in &depths.shapes {
+        let (from, to) = (place(*near), place(*far));
+        let from = from.min(0.5 * (from + to - MARK[1]));
+        let corners = ([from, bottom - MARK[0]], [to.max(from + MARK[1]), bottom]);
+        list.add_rect(corners.0, corners.1, THING).filled(true).build();
     }
 }
 

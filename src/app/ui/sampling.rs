@@ -20,7 +20,12 @@ impl Panel {
             text += ", paused";
         } else if samples < target && traced > 0 {
             let left = u64::from(target - samples) * width * height;
-            text += &format!(", {:.0} s left", left as f64 * device_time.as_secs_f64() / traced as f64);
+            let seconds = left as f64 * device_time.as_secs_f64() / traced as f64;
+            text += &match seconds {
+                ..100.0 => format!(", {seconds:.0} s left"),
+                ..6000.0 => format!(", {:.0} min left", seconds / 60.0),
+                _ => format!(", {:.1} h left", seconds / 3600.0),
+            };
         }
         imgui::ProgressBar::new(samples as f32 / target as f32)
             .size([-1.0, 0.0])

@@ -3,6 +3,7 @@
 use super::super::area::Area;
 use super::super::focus::Focus;
 use super::super::graphics::Answer;
+use super::super::lesson::Lesson;
 use super::super::loader::{Loader, Ready};
 use super::super::message::{Kind, Offer};
 use super::super::panel::Panel;
@@ -197,9 +198,9 @@ impl OpenWindow {
                 prepared
             }
             Some(Ready::Opened { opened: Err(error @ Error::DeviceLost { .. }), .. }) => return Err(error),
-            Some(Ready::Opened { opened: Err(error), .. }) => {
+            Some(Ready::Opened { name, opened: Err(error) }) => {
                 // The settings stay as they are.
-                self.panel.messages.fail(error.to_string());
+                self.panel.was_not_opened(&name, &error);
                 return Ok(false);
             }
         };
@@ -270,6 +271,10 @@ impl OpenWindow {
             Action::Pause => self.panel.paused ^= true,
             Action::Optics => self.panel.optics.open ^= true,
             Action::Keys => self.panel.keys ^= true,
+            Action::Lesson => {
+                let panel = &mut self.panel;
+                panel.lesson = if panel.lesson.is_some() { None } else { Some(Lesson::new(panel.seen())) };
+            }
             Action::Hide => {
                 self.panel.hidden ^= true;
                 if self.panel.hidden {
@@ -298,6 +303,10 @@ impl OpenWindow {
         let kind = match offer {
             Offer::SaveWhenDone => {
                 self.panel.save_when_done = true;
+                return Ok(());
+            }
+            Offer::UseAsAperture => {
+                self.panel.use_image();
                 return Ok(());
             }
             Offer::Replace(kind) => {
