@@ -50,7 +50,7 @@ fn run(command: Command) -> Result<()> {
             pixel: args.pixel.unwrap_or(Place::Centre),
             size: args.drawing_size,
             rays: args.rays,
-            above: args.from_above,
+            view: args.view,
             to_scale: args.to_scale,
             output: args.output,
             device: args.device.choice(),

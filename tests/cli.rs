@@ -408,7 +408,7 @@ fn a_drawing_of_the_optics_is_saved() {
         &["--focal-distance", "20"],
         &["--blades", "5"],
         &["--tolerance", "3"],
-        &["--from-above", "--anamorphic", "2"],
+        &["--view", "above", "--anamorphic", "2"],
         &["--to-scale"],
         &["--rays", "5"],
         &["--drawing-size", "800x300"],

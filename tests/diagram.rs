@@ -6,7 +6,9 @@ use anyhow::{Result, ensure};
 use common::{Gpu, prove, scene_of, small};
 use glam::DVec3;
 use std::collections::BTreeSet;
-use thinlens::diagram::{self, Diagram, Drawing, Line, Look, Outline, Point, Role, Shape};
+use thinlens::diagram::{
+    self, Diagram, Drawing, LETTERS, Line, Look, Outline, Point, Role, Shape, VIEWS, View,
+};
 use thinlens::renderer::Question;
 use thinlens::scene::{Aperture, CameraModel, Hole};
 use thinlens::settings::Settings;
@@ -139,7 +141,7 @@ fn light_spreads_on_the_film_over_the_circle_of_confusion() {
 }
 
 const LOOK: Look =
-    Look { size: [1100.0, 420.0], above: false, to_scale: false, sharp: Some([8.0, 12.0]), scale: None };
+    Look { size: [1100.0, 420.0], view: View::Side, to_scale: false, sharp: Some([8.0, 12.0]), scale: None };
 
 fn shapes(drawing: &Drawing) -> impl Iterator<Item = &Shape> {
     drawing.panes.iter().flat_map(|pane| &pane.shapes)
@@ -213,8 +215,9 @@ fn what_is_drawn_is_magnified_as_the_drawing_says() {
         ([12.5, 40.5], 1.0, true),
     ] {
         settings.estimator.lens.diameter = diameter;
+        let view = if above { View::Above } else { View::Side };
         let diagram = drawn(&gpu, &settings, position).expect("it is drawn");
-        let drawing = diagram::draw(&diagram, &Look { above, ..LOOK });
+        let drawing = diagram::draw(&diagram, &Look { view, ..LOOK });
         let (depth, _) = diagram.focus.expect("a lens");
         let focal_plane = lines(&drawing, Role::Focus)[0][0][0];
         let film = lines(&drawing, Role::Film)[0][0][0];
@@ -257,8 +260,8 @@ fn what_is_drawn_is_magnified_as_the_drawing_says() {
         let drawn = range(blur.iter().map(|point| point[1]));
         assert!((0..2).all(|end| (drawn[end] - falls[end]).abs() < 0.1), "{drawn:?}, but light in {falls:?}");
 
-        let drawing = diagram::draw(&diagram, &Look { above, to_scale: true, ..LOOK });
-        let scale = drawing.scale;
+        let drawing = diagram::draw(&diagram, &Look { view, to_scale: true, ..LOOK });
+        let scale = drawing.scale.expect("a section");
         assert_eq!([scale.behind, scale.fan, scale.rise], [scale.in_front; 3]);
         assert!(texts(&drawing).contains(&"to scale"), "it says so");
     }
@@ -481,7 +484,7 @@ fn the_depth_of_field_is_a_band() {
         let band = areas(&drawing, Role::Sharp)[0];
         let ends = range(band.iter().map(|corner| corner[0]));
         let words = texts(&drawing).into_iter().find(|text| text.starts_with("sharp from"));
-        (ends, words.expect("words").to_owned(), drawing.scale, drawing.panes[1].max[0])
+        (ends, words.expect("words").to_owned(), drawing.scale.expect("a section"), drawing.panes[1].max[0])
     };
     let ([near, far], words, scale, _) = band([8.0, 12.0]);
     let off = [near, far].map(|end| scale.depth(end)).into_iter().zip([8.0, 12.0]);
@@ -553,5 +556,110 @@ fn a_saved_drawing_has_every_part() {
             .collect();
         assert_eq!(written, texts(&drawing));
         assert!(!text.contains("NaN") && !text.contains("inf,") && !text.contains("inf\""), "{text}");
+    }
+}
+
+/// Where the text of a drawing stands: left, top, right, bottom.
+fn boxes(drawing: &Drawing) -> Vec<(&str, [f32; 4])> {
+    let boxes = shapes(drawing).filter_map(|shape| match shape {
+        Shape::Text { at: [x, y], anchor, text, .. } => {
+            let width = diagram::text_width(text);
+            let left = anchor.left(*x, width);
+            // The letters of a line reach from the top of an l to the bottom of a p.
+            Some((text.as_str(), [left, y - 0.45 * LETTERS, left + width, y + 0.45 * LETTERS]))
+        }
+        _ => None,
+    });
+    boxes.collect()
+}
+
+/// Catches text over other text, and text that is cut off at the edge of the drawing.
+#[test]
+fn no_text_covers_another() {
+    let gpu = Gpu::new();
+    let mut settings = small("version-4");
+    for (model, focal_distance, position) in [
+        (CameraModel::ThinLens, 10.6, [32.5, 24.5]),
+        (CameraModel::ThinLens, 10.6, [20.5, 38.5]),
+        (CameraModel::ThinLens, 40.0, [10.5, 44.5]),
+        (CameraModel::ThinLens, 3.0, [32.5, 0.5]),
+        (CameraModel::Hole, 10.6, [40.5, 30.5]),
+        (CameraModel::Pinhole, 10.6, [20.5, 38.5]),
+    ] {
+        settings.estimator.model = model;
+        settings.estimator.lens.focal_distance = focal_distance;
+        let diagram = drawn(&gpu, &settings, position).expect("it is drawn");
+        for (entry, size) in VIEWS
+            .iter()
+            .flat_map(|entry| [[640.0, 280.0], [936.0, 270.0], [1580.0, 400.0]].map(|size| (entry, size)))
+        {
+            let drawing = diagram::draw(&diagram, &Look { view: entry.view, size, ..LOOK });
+            let what = format!("{} of {model:?} at {position:?} in {size:?}", entry.name);
+            let boxes = boxes(&drawing);
+            for (number, (text, [left, top, right, bottom])) in boxes.iter().enumerate() {
+                assert!(*left >= 0.0 && *right <= size[0], "{what}: '{text}' from {left} to {right}");
+                assert!(*top >= 0.0 && *bottom <= size[1], "{what}: '{text}' at {top} to {bottom}");
+                for (other, [l, t, r, b]) in &boxes[..number] {
+                    let apart = right <= l || r <= left || bottom <= t || b <= top;
+                    assert!(apart, "{what}: '{text}' covers '{other}'");
+                }
+            }
+        }
+    }
+}
+
+/// Catches a figure of the book in which the two rays do not meet at p, in which a letter stands at another point, or
+/// whose distances are not those of the camera.
+#[test]
+fn the_figures_of_the_book_agree_with_their_equations() {
+    let gpu = Gpu::new();
+    let settings = small("version-4");
+    for position in [[20.5, 38.5], [40.5, 30.5]] {
+        let diagram = drawn(&gpu, &settings, position).expect("it is drawn");
+        let (d, (f, _)) = (diagram.view_plane as f32, diagram.focus.expect("a lens"));
+        let share = d / f as f32;
+        let draw = |view| diagram::draw(&diagram, &Look { view, ..LOOK });
+        let dot = |drawing: &Drawing, role| dots(drawing, role)[0];
+        let near = |what: &str, point: Point, expected: Point| {
+            let off = (point[0] - expected[0]).hypot(point[1] - expected[1]);
+            assert!(off < 0.2, "{what} of {position:?} is at {point:?}, not {expected:?}");
+        };
+        let between = |from: Point, to: Point, share: f32| {
+            [0, 1].map(|axis| from[axis] + share * (to[axis] - from[axis]))
+        };
+
+        let drawing = draw(View::CrossSection);
+        let glass = lines(&drawing, Role::Glass)[0];
+        let lens = between(glass[0], glass[1], 0.5);
+        let (q, p) = (dot(&drawing, Role::Text), dot(&drawing, Role::Focus));
+        near("q", q, between(lens, p, share));
+        for ray in lines(&drawing, Role::Ray) {
+            near("where a ray meets the focal plane", [p[0], height([ray[0], ray[1]], p[0])], p);
+        }
+
+        // The first dot is l.
+        let drawing = draw(View::Layout);
+        let (l, r) = (dot(&drawing, Role::Glass), dot(&drawing, Role::Primary));
+        let (q, p) = (dot(&drawing, Role::Text), dot(&drawing, Role::Focus));
+        near("r", r, between(l, p, share));
+        let centre = lines(&drawing, Role::Centre)[0];
+        near("the end of the centre ray", centre[1], p);
+        near("q", q, between(centre[0], p, share));
+
+        let drawing = draw(View::TwoRays);
+        let (l, r) = (dot(&drawing, Role::Glass), dot(&drawing, Role::Primary));
+        let (q, centre) = (dot(&drawing, Role::Text), lines(&drawing, Role::Centre)[0][0]);
+        // Both rays come together as they go on, and are at the same place at p.
+        let offset = [0, 1].map(|axis| q[axis] + (1.0 - share) * (l[axis] - centre[axis]));
+        near("r", r, offset);
+
+        let drawing = draw(View::CircleOfConfusion);
+        let film = lines(&drawing, Role::Film)[0][0][0];
+        let light = lines(&drawing, Role::Light);
+        let falls = range(light.iter().map(|line| height([line[0], line[1]], film)));
+        let blurs = lines(&drawing, Role::Blur);
+        let c = blurs.iter().find(|line| line.iter().all(|point| point[0] == film)).expect("c");
+        let c = range(c.iter().map(|point| point[1]));
+        assert!((0..2).all(|end| (c[end] - falls[end]).abs() < 0.2), "c is {c:?}, but light in {falls:?}");
     }
 }

@@ -7,7 +7,7 @@ use thinlens::interface;
 
 /// A module and what it may use of the crate, besides `error`.
 const ARROWS: [(&str, &[&str]); 18] = [
-    ("cli", &["settings", "scene"]),
+    ("cli", &["diagram", "settings", "scene"]),
     ("app", &["diagram", "renderer", "output", "settings", "scene", "vulkan", "pending_file"]),
     ("bench", &["renderer", "output", "settings", "vulkan", "pending_file"]),
     (

@@ -78,7 +78,7 @@ fn the_drawing_in_the_viewer_is_the_saved_one() {
     viewer.click("Drawing", |viewer| viewer.controls.borrow().contains_key("From above"));
     viewer.click_once("From above");
     viewer.rest();
-    saved("the view from above", "lens-3.svg", &["--to-scale", "--from-above"]);
+    saved("the view from above", "lens-3.svg", &["--to-scale", "--view", "above"]);
     viewer.close();
 }
 

@@ -8,7 +8,7 @@ use super::message::{Kind, Messages, Offer};
 use super::save_as::{self, Files, SaveAs, absolute};
 use super::typing::Typing;
 use super::zoom_lock::ZoomLock;
-use crate::diagram::{Part, Scale};
+use crate::diagram::{Part, Scale, View};
 use crate::error::{Error, Result};
 use crate::output::{self, Origin, PictureFormat};
 use crate::scene::{self, Aperture, ApertureImage, BUILTINS, Builtin, Depths, Extents, SceneRef};
@@ -84,9 +84,9 @@ pub(super) struct Panel {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Optics {
     pub(super) open: bool,
-    /// The number of rays in each fan, and of samples in the view from behind.
+    /// The number of rays in each fan, and of samples.
     pub(super) rays: u32,
-    pub(super) shown: Shown,
+    pub(super) view: View,
     /// Whether the section has the same scale everywhere.
     pub(super) to_scale: bool,
     pub(super) pin: Pin,
@@ -121,23 +121,12 @@ pub(super) struct HeldPart {
     pub(super) mm_per_distance: f64,
 }
 
-/// Which drawing of the optics is shown.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Shown {
-    /// The section from film to object, from the right.
-    Side,
-    /// The section from film to object, from above.
-    Above,
-    /// Four drawings to scale, with the letters of the book.
-    Book,
-}
-
 impl Default for Optics {
     fn default() -> Self {
         Self {
             open: false,
             rays: 9,
-            shown: Shown::Side,
+            view: View::Side,
             to_scale: false,
             pin: Pin { share: [0.5; 2], depth: None },
             held: None,

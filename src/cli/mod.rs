@@ -2,9 +2,11 @@
 
 mod settings;
 
+use crate::diagram::{VIEWS, View};
 use crate::error::Result;
 use crate::scene::{self, BUILTINS, SceneRef};
 use crate::settings::{DEFAULT_SAMPLES, DeviceChoice, Focusing, Place, Settings, Sweep, Value, list, size};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{ArgAction, Args, CommandFactory, Parser, Subcommand};
 pub use settings::SettingsArgs;
 use std::ffi::OsString;
@@ -174,11 +176,11 @@ pub struct DiagramArgs {
     /// The pixel whose optics are drawn, counted from the upper left corner of the picture [default: the middle]
     #[arg(long, value_name = "X,Y", value_parser = parse_place)]
     pub pixel: Option<Place>,
-    /// Show the optics from above, and not from the side
-    #[arg(long)]
-    pub from_above: bool,
-    /// Give depths and heights the same scale everywhere. Otherwise the side of the film and the heights are
-    /// magnified, and the drawing says how much
+    /// What is drawn
+    #[arg(long, value_name = "NAME", value_parser = view(), default_value = View::Side.entry().name)]
+    pub view: View,
+    /// From the side and from above, give depths and heights the same scale everywhere. Otherwise the side of the film
+    /// and the heights are magnified, and the drawing says how much
     #[arg(long)]
     pub to_scale: bool,
     /// The number of rays through the lens
@@ -379,4 +381,11 @@ fn parse_blur(text: &str) -> Result<(Place, f32), String> {
 
 fn parse_size(text: &str) -> Result<[u32; 2], String> {
     size(text).ok_or_else(|| "a size is WIDTHxHEIGHT in pixels, such as 1280x720".into())
+}
+
+/// Reads the name of a view of the optics.
+fn view() -> impl TypedValueParser<Value = View> {
+    let names = VIEWS.iter().map(|entry| PossibleValue::new(entry.name).help(entry.help));
+    PossibleValuesParser::new(names)
+        .map(|name| VIEWS.iter().find(|entry| entry.name == name).map_or(View::Side, |entry| entry.view))
 }

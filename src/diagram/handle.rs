@@ -47,7 +47,7 @@ pub(super) fn handles(diagram: &Diagram, look: &Look, scale: &Scale, [top, botto
     let upright = |part, x: f32| Handle { part, line: [[x, top], [x, bottom]] };
     let point = diagram.hit.map(|hit| Handle { part: Part::Point, line: [scale.place(hit); 2] });
     let [x, y] = scale.lens;
-    let half = (diagram.half_aperture[usize::from(!look.above)] * scale.fan) as f32;
+    let half = (diagram.half_aperture[usize::from(!look.above())] * scale.fan) as f32;
     let rims =
         [y - half, y + half].map(|y| Handle { part: Part::Rim, line: [[x - GLASS, y], [x + GLASS, y]] });
     let has_rim = diagram.model != CameraModel::Pinhole;

@@ -3,6 +3,7 @@
 //! [`Diagram`] holds the points and lines, in scene units. [`draw`] makes a [`Drawing`] of it: lines, areas and text,
 //! each in its place on a sheet. The viewer paints that sheet, and [`svg`] writes it to a file, so the two are the same.
 
+mod book;
 mod film;
 mod handle;
 mod outline;
@@ -10,6 +11,7 @@ mod paths;
 mod section;
 mod sheet;
 mod svg;
+mod view;
 mod words;
 
 pub use handle::{Handle, Part};
@@ -18,6 +20,7 @@ pub use paths::{Diagram, ImageSide, Line};
 pub use section::Scale;
 pub use sheet::{Anchor, LETTERS, Pane, Point, Role, Shape, text_width};
 pub use svg::svg;
+pub use view::{VIEWS, View, ViewEntry};
 pub use words::{depth, millimetres, sentence};
 
 use crate::scene::CameraModel;
@@ -32,14 +35,21 @@ const FILM_SHARE: f32 = 0.3;
 pub struct Look {
     /// Width and height of the drawing.
     pub size: [f32; 2],
-    /// Whether the section is seen from above and not from the right.
-    pub above: bool,
-    /// Whether depths and heights have the same scale on both sides of the lens.
+    /// What is drawn.
+    pub view: View,
+    /// Whether a section has the same scale for depths and heights on both sides of the lens.
     pub to_scale: bool,
     /// The depths between which everything is sharp, if they are to be shown.
     pub sharp: Option<[f64; 2]>,
     /// A scale to keep, while a part of the drawing is moved. Otherwise the drawing fills its place.
     pub scale: Option<Scale>,
+}
+
+impl Look {
+    /// Whether right is down, and not up.
+    fn above(&self) -> bool {
+        self.view == View::Above
+    }
 }
 
 /// The whole drawing.
@@ -49,8 +59,8 @@ pub struct Drawing {
     pub size: [f32; 2],
     /// Its parts. Together they cover it, and none covers another one.
     pub panes: Vec<Pane>,
-    /// Where the section draws which point.
-    pub scale: Scale,
+    /// Where the section draws which point. The other views are not magnified.
+    pub scale: Option<Scale>,
     /// What can be moved by hand.
     pub handles: Vec<Handle>,
 }
@@ -62,23 +72,37 @@ pub fn sharp_depths(settings: &Settings) -> Option<[f64; 2]> {
     has_lens.then(|| settings.depth_of_field())
 }
 
-/// Draws the optics: the section on the left, the circle of confusion on the right, and a sentence below.
+/// Draws the optics, and below them a sentence that says what happens, or what the letters of the figure mean.
 pub fn draw(diagram: &Diagram, look: &Look) -> Drawing {
-    let [width, height] = look.size.map(|extent| extent.max(1.0));
-    let lines = wrapped(&sentence(diagram), width - 2.0 * MARGIN);
+    let size @ [width, height] = look.size.map(|extent| extent.max(1.0));
+    let is_section = look.view.is_section();
+    let text = if is_section { sentence(diagram) } else { book::caption(diagram, look.view) };
+    let lines = wrapped(&text, width - 2.0 * MARGIN);
     let words_height = lines.len() as f32 * LINE + MARGIN;
     let bottom = (height - words_height).max(1.0);
-    let film_left = (width - bottom.min(FILM_SHARE * width)).floor();
-    let ([above, section, below], scale) = section::draw(diagram, look, [film_left, bottom]);
-    let handles = handle::handles(diagram, look, &scale, [section.min[1], section.max[1]]);
-    let mut film = film::draw(diagram, [film_left, 0.0], [width, bottom]);
-    film.line([film_left, 0.0], [film_left, bottom], Role::Frame, 1.0);
-    let mut words = Pane::new([0.0, bottom], [width, height]);
+    let mut drawing = if is_section {
+        section(diagram, look, [width, bottom])
+    } else {
+        let panes = book::draw(diagram, look.view, [0.0; 2], [width, bottom]);
+        Drawing { size, panes, scale: None, handles: Vec::new() }
+    };
+    let mut words = Pane::new([0.0, bottom], size);
     words.rectangle(words.min, words.max, Role::Paper);
     words.line(words.min, [width, bottom], Role::Frame, 1.0);
     for (number, line) in (0_u8..).zip(lines) {
         let y = bottom + 0.5 * MARGIN + (f32::from(number) + 0.5) * LINE;
         words.text([MARGIN, y], Anchor::Start, Role::Text, line);
     }
-    Drawing { size: [width, height], panes: vec![above, section, below, film, words], scale, handles }
+    drawing.panes.push(words);
+    Drawing { size, ..drawing }
+}
+
+/// Draws the section on the left and the circle of confusion on the right.
+fn section(diagram: &Diagram, look: &Look, size @ [width, bottom]: Point) -> Drawing {
+    let film_left = (width - bottom.min(FILM_SHARE * width)).floor();
+    let ([above, section, below], scale) = section::draw(diagram, look, [film_left, bottom]);
+    let handles = handle::handles(diagram, look, &scale, [section.min[1], section.max[1]]);
+    let mut film = film::draw(diagram, [film_left, 0.0], size);
+    film.line([film_left, 0.0], [film_left, bottom], Role::Frame, 1.0);
+    Drawing { size, panes: vec![above, section, below, film], scale: Some(scale), handles }
 }

@@ -11,7 +11,7 @@ use crate::settings::Estimator;
 use glam::DVec3;
 
 /// The view plane is drawn at this fraction of the distance to what is looked at. Only angles matter on it.
-const VIEW_PLANE_SHARE: f64 = 0.25;
+const VIEW_PLANE_SHARE: f64 = 0.45;
 /// The drawing extends beyond what is seen and beyond the focal plane by this factor.
 const BEYOND: f64 = 1.2;
 /// If one of them is more than this many times as far as the other, the drawing ends before it.

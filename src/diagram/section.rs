@@ -40,7 +40,7 @@ pub struct Scale {
 impl Scale {
     /// The same scale for another drawing.
     fn kept(self, diagram: &Diagram, look: &Look) -> Self {
-        let kept = Self { above: look.above, ..self };
+        let kept = Self { above: look.above(), ..self };
         Self { slope: kept.aside(diagram.slope), ..kept }
     }
 
@@ -55,11 +55,11 @@ impl Scale {
             fan: 1.0,
             rise: 1.0,
             slope: 0.0,
-            above: look.above,
+            above: look.above(),
         };
         scale.slope = scale.aside(diagram.slope);
         // How far the rays get from the centre ray, and the centre ray from the axis.
-        let fans = [fan(diagram, look.above), light(diagram, look.above)].concat();
+        let fans = [fan(diagram, look.above()), light(diagram, look.above())].concat();
         let half_fan = fans.iter().flatten().map(|point| scale.off_centre(*point).abs()).fold(0.0, f64::max);
         let half_rise = scale.slope.abs() * front.max(back);
         if look.to_scale {
@@ -214,7 +214,7 @@ pub(super) fn draw(diagram: &Diagram, look: &Look, [right, end]: Point) -> ([Pan
 }
 
 fn objects(pane: &mut Pane, diagram: &Diagram, look: &Look, scale: &Scale) {
-    let outlines = if look.above { &diagram.outlines_across } else { &diagram.outlines_up };
+    let outlines = if look.above() { &diagram.outlines_across } else { &diagram.outlines_up };
     for outline in outlines {
         let points: Vec<Point> =
             outline.corners.iter().map(|[depth, aside]| scale.place_flat(*depth, *aside)).collect();
@@ -228,7 +228,7 @@ fn objects(pane: &mut Pane, diagram: &Diagram, look: &Look, scale: &Scale) {
 }
 
 fn rays(pane: &mut Pane, diagram: &Diagram, look: &Look, scale: &Scale) {
-    let fan = fan(diagram, look.above);
+    let fan = fan(diagram, look.above());
     let mut line = |[from, to]: Line, role: Role| pane.line(scale.place(from), scale.place(to), role, 1.0);
     for ray in &fan {
         line(*ray, Role::Ray);
@@ -238,7 +238,7 @@ fn rays(pane: &mut Pane, diagram: &Diagram, look: &Look, scale: &Scale) {
             line([hit, ray[0]], Role::Light);
         }
     }
-    for ray in light(diagram, look.above) {
+    for ray in light(diagram, look.above()) {
         line(ray, Role::Light);
     }
     let image = &diagram.image;
@@ -250,7 +250,7 @@ fn rays(pane: &mut Pane, diagram: &Diagram, look: &Look, scale: &Scale) {
 /// Draws the lens, or the hole, and the wall around it.
 fn opening(pane: &mut Pane, diagram: &Diagram, look: &Look, scale: &Scale, [top, bottom]: [f32; 2]) {
     let [x, y] = scale.lens;
-    let half = (diagram.half_aperture[usize::from(!look.above)] * scale.fan) as f32;
+    let half = (diagram.half_aperture[usize::from(!look.above())] * scale.fan) as f32;
     if diagram.model == CameraModel::ThinLens && half > 0.0 {
         let side = |sign: f32| {
             (-8..=8_i8).map(move |step| {
@@ -291,7 +291,7 @@ fn marks(pane: &mut Pane, diagram: &Diagram, look: &Look, scale: &Scale) {
         return;
     };
     pane.dot(scale.place(hit), 4.0, Role::Light);
-    let axis = usize::from(!look.above);
+    let axis = usize::from(!look.above());
     let widest = diagram.half_aperture[0].max(diagram.half_aperture[1]).max(f64::MIN_POSITIVE);
     let half = 0.5 * image.blur * (diagram.half_aperture[axis] / widest) * scale.fan;
     let [x, y] = scale.place(image.p);

@@ -12,6 +12,8 @@ pub const LETTERS: f32 = 16.0;
 pub(super) const LINE: f32 = 20.0;
 /// The space between the edge of the sheet and a text.
 pub(super) const MARGIN: f32 = 8.0;
+/// The space between a dot and its name.
+const NEAR: f32 = 6.0;
 /// The space between two texts of a row.
 const APART: f32 = 14.0;
 
@@ -45,6 +47,8 @@ pub enum Role {
     SharpName,
     /// The rays that the renderer traces.
     Ray,
+    /// The one of these rays that a figure follows.
+    Primary,
     /// The light of the object.
     Light,
     /// The ray through the centre of the lens.
@@ -78,6 +82,7 @@ impl Role {
             Self::Sharp => [0.35, 0.85, 0.40, 0.22],
             Self::SharpName => [0.50, 0.88, 0.52, 1.0],
             Self::Ray => [1.0, 0.93, 0.55, 0.35],
+            Self::Primary => [1.0, 0.93, 0.55, 1.0],
             Self::Light => [0.45, 0.85, 0.90, 0.85],
             Self::Centre => [1.0, 1.0, 1.0, 0.80],
             Self::Blur => [1.0, 0.42, 0.47, 1.0],
@@ -205,6 +210,38 @@ impl Pane {
 
     pub(super) fn text(&mut self, at: Point, anchor: Anchor, role: Role, text: String) {
         self.shapes.push(Shape::Text { at, anchor, role, text });
+    }
+
+    /// Writes the name of a thing beside its place, where there is no other text. Without such a place it is left out.
+    pub(super) fn name(&mut self, [x, y]: Point, role: Role, name: &str) {
+        let width = text_width(name);
+        let sides = [
+            [NEAR, -0.6 * LINE],
+            [NEAR, 0.6 * LINE],
+            [-NEAR - width, -0.6 * LINE],
+            [-NEAR - width, 0.6 * LINE],
+        ];
+        let farther = sides.map(|[right, down]| [2.0 * right, 2.0 * down]);
+        let places = sides.into_iter().chain(farther).map(|[right, down]| [x + right, y + down]);
+        if let Some(at) = places.into_iter().find(|at| self.is_free(*at, width)) {
+            self.text(at, Anchor::Start, role, name.to_owned());
+        }
+    }
+
+    /// Whether a text of this width can stand there.
+    fn is_free(&self, [left, y]: Point, width: f32) -> bool {
+        let is_within = left >= self.min[0]
+            && left + width <= self.max[0]
+            && y - 0.5 * LINE >= self.min[1]
+            && y + 0.5 * LINE <= self.max[1];
+        let is_covered = self.shapes.iter().any(|shape| match shape {
+            Shape::Text { at, anchor, text, .. } => {
+                let other = anchor.left(at[0], text_width(text));
+                left < other + text_width(text) && other < left + width && (y - at[1]).abs() < LETTERS
+            }
+            _ => false,
+        });
+        is_within && !is_covered
     }
 
     /// Writes names in a row, each as near as possible to its place, and none over another one. If there is not room

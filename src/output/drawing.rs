@@ -2,7 +2,7 @@
 
 use super::headless::position;
 use super::say;
-use crate::diagram::{self, Diagram, Look, sharp_depths};
+use crate::diagram::{self, Diagram, Look, View, sharp_depths};
 use crate::error::{Error, Result};
 use crate::pending_file::{PendingFile, keep_apart};
 use crate::renderer::{Question, Renderer};
@@ -27,8 +27,8 @@ pub struct DrawingJob {
     pub size: [u32; 2],
     /// The number of rays through the lens.
     pub rays: u32,
-    /// Whether the section is seen from above and not from the right.
-    pub above: bool,
+    /// What is drawn.
+    pub view: View,
     /// Whether depths and heights have the same scale everywhere.
     pub to_scale: bool,
     /// The SVG file.
@@ -89,7 +89,7 @@ fn draw_on(instance: &Arc<Instance>, job: &DrawingJob) -> Result<()> {
     let diagram = Diagram::new(&job.settings.estimator, &picked);
     let look = Look {
         size: job.size.map(|extent| extent as f32),
-        above: job.above,
+        view: job.view,
         to_scale: job.to_scale,
         sharp: sharp_depths(&job.settings),
         scale: None,

@@ -1,8 +1,8 @@
 //! Moves the parts of the drawing of the optics by hand.
 
 use super::widgets::Layout;
-use crate::app::panel::{HeldPart, Optics, Shown};
-use crate::diagram::{Diagram, Drawing, Part};
+use crate::app::panel::{HeldPart, Optics};
+use crate::diagram::{Diagram, Drawing, Part, View};
 use crate::scene::{CameraModel, DIAMETERS, FOCAL_DISTANCES, FOCAL_LENGTHS_MM, MAX_LENGTH, MIN_LENGTH};
 use crate::settings::Estimator;
 use imgui::{MouseButton, MouseCursor, Ui};
@@ -27,13 +27,13 @@ impl Optics {
         let pointer = [0, 1].map(|axis| ui.io().mouse_pos[axis] - corner[axis]);
         let under_pointer = drawing.handles.iter().find(|handle| handle.distance(pointer) <= REACH);
         if ui.is_item_activated() {
-            self.held = under_pointer.map(|handle| {
+            self.held = under_pointer.zip(drawing.scale).map(|(handle, scale)| {
                 let on_it = handle.nearest(pointer);
                 HeldPart {
                     part: handle.part,
-                    scale: drawing.scale,
+                    scale,
                     beside: [0, 1].map(|axis| pointer[axis] - on_it[axis]),
-                    diameter_per_half: diameter_per_half(self.shown, diagram, estimator),
+                    diameter_per_half: diameter_per_half(self.view, diagram, estimator),
                     slope: diagram.slope.truncate(),
                     mm_per_distance: estimator.camera.focal_length_mm() / diagram.image.film_distance,
                 }
@@ -91,8 +91,8 @@ impl Optics {
 }
 
 /// The diameter of the opening divided by its half extent in the drawing, which depends on the shape of the opening.
-fn diameter_per_half(shown: Shown, diagram: &Diagram, estimator: &Estimator) -> f64 {
-    let half = diagram.half_aperture[usize::from(shown != Shown::Above)];
+fn diameter_per_half(view: View, diagram: &Diagram, estimator: &Estimator) -> f64 {
+    let half = diagram.half_aperture[usize::from(view != View::Above)];
     let diameter = match estimator.model {
         CameraModel::Hole => estimator.hole.diameter,
         CameraModel::ThinLens | CameraModel::Pinhole => estimator.lens.diameter,

@@ -12,7 +12,6 @@ mod message;
 mod numbers;
 mod optics;
 mod overlay;
-mod paper;
 mod rows;
 mod sampling;
 mod sensor;

@@ -1,0 +1,354 @@
+//! The figures of K. Suffern, *Ray Tracing from the Ground Up*, chapter 10, with their letters, for one pixel: to scale,
+//! except that the opening is drawn larger where it would be too small.
+
+use super::film;
+use super::sheet::{LINE, MARGIN, Pane, Point, Role};
+use super::words::digits;
+use super::{Diagram, Line, View};
+use crate::scene::CameraModel;
+use glam::DVec3;
+use std::f64::consts::TAU;
+
+/// The rim of the opening is drawn with so many corners.
+const RIM: u32 = 96;
+/// The opening is at least this share as high as the picture on the view plane, in the figures in front of it.
+const OPENING_SHARE: f64 = 0.45;
+/// How far to the left and down what lies nearer to the eye is drawn in the layout.
+const NEARER: f64 = 0.32;
+/// The share of the width of the figure of the circle of confusion that the film from the front takes.
+const FILM_SHARE: f32 = 0.3;
+
+/// A rectangle of the sheet in which everything has the same scale.
+struct Paper {
+    pane: Pane,
+    /// What lies in the middle of the rectangle.
+    middle: [f64; 2],
+    /// The length on the sheet of a scene unit.
+    scale: f64,
+}
+
+impl Paper {
+    /// Shows these points as large as possible, below a line of names and above two of them.
+    fn new(min: Point, max: Point, points: impl Iterator<Item = [f64; 2]>) -> Self {
+        let mut pane = Pane::new(min, max);
+        pane.rectangle(pane.min, pane.max, Role::Paper);
+        let nothing = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+        let bounds = points.fold(nothing, |bounds, point| {
+            [0, 1].map(|axis| [bounds[axis][0].min(point[axis]), bounds[axis][1].max(point[axis])])
+        });
+        let margins = [2.0 * MARGIN, 3.0 * LINE + 2.0 * MARGIN];
+        let scales = [0, 1].map(|axis| {
+            let room = (pane.max[axis] - pane.min[axis] - margins[axis]).max(1.0);
+            f64::from(room) / (bounds[axis][1] - bounds[axis][0]).max(1e-12)
+        });
+        let middle = bounds.map(|[low, high]| 0.5 * (low + high));
+        Self { pane, middle, scale: scales[0].min(scales[1]) }
+    }
+
+    fn place(&self, point: [f64; 2]) -> Point {
+        let (min, max) = (self.pane.min, self.pane.max);
+        // There is a line of names above, and two lines below.
+        let middle = [0.5 * (min[0] + max[0]), 0.5 * (min[1] + max[1] - LINE)];
+        let [x, y] = [0, 1].map(|axis| ((point[axis] - self.middle[axis]) * self.scale) as f32);
+        [middle[0] + x, middle[1] - y]
+    }
+
+    fn line(&mut self, from: [f64; 2], to: [f64; 2], role: Role, width: f32) {
+        self.pane.line(self.place(from), self.place(to), role, width);
+    }
+
+    fn dashed(&mut self, from: [f64; 2], to: [f64; 2], role: Role) {
+        self.pane.dashed(self.place(from), self.place(to), role);
+    }
+
+    fn outline(&mut self, points: impl Iterator<Item = [f64; 2]>, role: Role) {
+        let points = points.map(|point| self.place(point)).collect();
+        self.pane.outline(points, role, 1.5);
+    }
+
+    fn dot(&mut self, at: [f64; 2], role: Role, name: &str) {
+        let at = self.place(at);
+        self.pane.dot(at, 3.5, role);
+        self.pane.name(at, role, name);
+    }
+
+    /// The height of the line of names above the figure.
+    fn head(&self) -> f32 {
+        self.pane.min[1] + 0.5 * (MARGIN + LINE)
+    }
+
+    /// Names things in a line, each near its place.
+    fn row(&mut self, y: f32, names: &[([f64; 2], Role, &str)]) {
+        let names = names.iter().map(|(at, role, name)| (self.place(*at)[0], *role, (*name).to_owned()));
+        self.pane.row(y, names.collect());
+    }
+
+    /// Shows a distance from the lens in a line of the lower edge.
+    fn distance(&mut self, number: u8, depth: f64, role: Role, name: &str) {
+        let y = self.pane.max[1] - (f32::from(number) + 0.5) * LINE;
+        let [from, to] = [0.0, depth].map(|depth| self.place([depth, 0.0])[0]);
+        for x in [from, to] {
+            self.pane.line([x, y - 4.0], [x, y + 4.0], role, 1.0);
+        }
+        self.pane.line([from, y], [to, y], role, 1.0);
+        self.pane.name([from.max(to), y], role, name);
+    }
+}
+
+/// What is drawn in front of the lens, with its opening as large as it is drawn.
+struct Front<'a> {
+    diagram: &'a Diagram,
+    larger: f64,
+}
+
+impl<'a> Front<'a> {
+    fn new(diagram: &'a Diagram) -> Self {
+        let widest = diagram.half_aperture[0].max(diagram.half_aperture[1]);
+        let larger = OPENING_SHARE * diagram.half_picture[1] / widest.max(f64::MIN_POSITIVE);
+        Self { diagram, larger: if widest > 0.0 { larger.max(1.0) } else { 1.0 } }
+    }
+
+    /// Where a ray is at a depth, if it starts on the larger opening.
+    fn at(&self, ray: &Line, depth: f64) -> DVec3 {
+        let [from, to] = *ray;
+        let on_ray = from + (to - from) * ((depth - from.z) / (to.z - from.z).max(1e-12));
+        let centre = self.diagram.slope * depth;
+        centre + self.larger * (on_ray - centre)
+    }
+
+    /// The second of the two rays: it starts at the top of the opening.
+    fn primary(&self) -> Line {
+        *self.diagram.fan_up.last().unwrap_or(&self.diagram.centre)
+    }
+
+    fn half_aperture(&self) -> [f64; 2] {
+        self.diagram.half_aperture.map(|half| self.larger * half)
+    }
+
+    /// The rim of the opening.
+    fn rim(&self) -> impl Iterator<Item = DVec3> {
+        let [width, height] = self.half_aperture();
+        (0..RIM).map(move |corner| {
+            let (sin, cos) = (TAU * f64::from(corner) / f64::from(RIM)).sin_cos();
+            DVec3::new(width * cos, height * sin, 0.0)
+        })
+    }
+
+    /// The corners of the picture on a plane.
+    fn picture(&self, depth: f64) -> [DVec3; 4] {
+        let [x, y] = self.diagram.half_picture.map(|half| half * depth / self.diagram.view_plane);
+        [[-x, y], [x, y], [x, -y], [-x, -y]].map(|[x, y]| DVec3::new(x, y, depth))
+    }
+
+    /// The depth at which the rays end: the focal plane or, without a lens, what is seen.
+    fn end(&self) -> f64 {
+        let hit = self.diagram.hit.map_or(self.diagram.reach, |hit| hit.z);
+        self.diagram.focus.map_or(hit, |(depth, _)| depth)
+    }
+
+    fn opening(&self) -> &'static str {
+        if self.diagram.model == CameraModel::Hole { "hole" } else { "lens" }
+    }
+}
+
+/// Draws a figure in this rectangle of the sheet.
+pub(super) fn draw(diagram: &Diagram, view: View, min: Point, max: Point) -> Vec<Pane> {
+    let front = Front::new(diagram);
+    match view {
+        View::Layout => vec![layout(&front, min, max)],
+        View::TwoRays => vec![two_rays(&front, min, max)],
+        View::CircleOfConfusion => {
+            let edge = (max[0] - (max[1] - min[1]).min(FILM_SHARE * (max[0] - min[0]))).floor();
+            let mut film = film::draw(diagram, [edge, min[1]], max);
+            film.line([edge, min[1]], [edge, max[1]], Role::Frame, 1.0);
+            vec![circle_of_confusion(diagram, min, [edge, max[1]]), film]
+        }
+        _ => vec![cross_section(&front, min, max)],
+    }
+}
+
+/// What the letters of a figure mean.
+pub(super) fn caption(diagram: &Diagram, view: View) -> String {
+    let front = Front::new(diagram);
+    let opening = front.opening();
+    let larger = match front.larger {
+        larger if larger > 1.0 && view != View::CircleOfConfusion => {
+            format!(" The {opening} is drawn {} times as wide as it is.", digits(larger, 2))
+        }
+        _ => String::new(),
+    };
+    let meets = match diagram.focus {
+        Some(_) => "both meet at p on the focal plane, at the distance f",
+        None => "without a lens, they do not meet",
+    };
+    let text = match view {
+        View::Layout => format!(
+            "The centre ray goes from the middle of the {opening} through q on the view plane, at the distance d. A primary \
+             ray starts at l on the rim; {meets}."
+        ),
+        View::TwoRays => format!(
+            "The (viewX, viewY) plane from behind the camera: the centre ray goes through it at q, and the primary ray from \
+             l at r; {meets}."
+        ),
+        View::CircleOfConfusion => format!(
+            "Behind the {opening}, to scale: light of the point that is seen is spread over the circle of confusion c \
+             around p', where the centre ray ends. v is the distance of the film{}.",
+            if diagram.image.crossing.is_some() { ", and i is where the light meets" } else { "" }
+        ),
+        _ => format!(
+            "The centre ray goes from the middle of the {opening} through q on the view plane, at the distance d. Primary \
+             rays start all over the {opening}; {}. h is what the centre ray hits.",
+            meets.replace("both meet", "all meet")
+        ),
+    };
+    format!("{text}{larger}")
+}
+
+fn side(point: DVec3) -> [f64; 2] {
+    [point.z, point.y]
+}
+
+fn cross_section(front: &Front<'_>, min: Point, max: Point) -> Pane {
+    let diagram = front.diagram;
+    let (d, reach) = (diagram.view_plane, diagram.reach);
+    let [_, half_picture] = diagram.half_picture;
+    let [_, half] = front.half_aperture();
+    let rays: Vec<[DVec3; 2]> =
+        diagram.fan_up.iter().map(|ray| [0.0, reach].map(|depth| front.at(ray, depth))).collect();
+    let axis = [[-0.03 * reach, 0.0], [reach, 0.0]];
+    let shown = [[d, half_picture], [d, -half_picture], [0.0, half], [0.0, -half]];
+    let marks = diagram.focus.map(|(_, p)| p).into_iter().chain(diagram.hit).filter(|point| point.z <= reach);
+    let ends = rays.iter().flatten().copied().chain(marks).map(side);
+    let mut paper = Paper::new(min, max, axis.into_iter().chain(shown).chain(ends));
+    paper.line(axis[0], axis[1], Role::Frame, 1.0);
+    paper.line([d, half_picture], [d, -half_picture], Role::Faint, 2.0);
+    let focus_role = Role::Focus;
+    let mut names = vec![([0.0; 2], Role::Glass, front.opening()), ([d, 0.0], Role::Faint, "view plane")];
+    if let Some((f, _)) = diagram.focus {
+        let x = paper.place([f, 0.0])[0];
+        let (top, bottom) = (paper.pane.min[1] + LINE + MARGIN, paper.pane.max[1] - 2.0 * LINE);
+        paper.pane.line([x, top], [x, bottom], focus_role, 2.0);
+        names.push(([f, 0.0], focus_role, "focal plane"));
+    }
+    for [from, to] in &rays {
+        paper.line(side(*from), side(*to), Role::Ray, 1.0);
+    }
+    paper.dashed([0.0; 2], side(diagram.slope * reach), Role::Centre);
+    paper.line([0.0, half], [0.0, -half], Role::Glass, 4.0);
+    paper.row(paper.head(), &names);
+    paper.dot(side(diagram.q), Role::Text, "q");
+    if let Some((f, p)) = diagram.focus {
+        paper.dot(side(p), focus_role, "p");
+        paper.distance(0, f, focus_role, "f");
+    }
+    if let Some(hit) = diagram.hit {
+        paper.dot(side(hit), Role::Light, "h");
+    }
+    paper.distance(1, d, Role::Faint, "d");
+    paper.pane
+}
+
+fn layout(front: &Front<'_>, min: Point, max: Point) -> Pane {
+    let diagram = front.diagram;
+    // Seen from the right: what is farther to the right is nearer to the eye.
+    let flat = |point: DVec3| [point.z - NEARER * point.x, point.y - NEARER * point.x];
+    let (d, end) = (diagram.view_plane, front.end());
+    let planes = [front.picture(d), front.picture(end)];
+    let primary = front.primary();
+    let [l, r, p] = [0.0, d, end].map(|depth| front.at(&primary, depth));
+    let shown = planes.iter().flatten().copied().chain(front.rim()).chain([l, r, p]);
+    let mut paper = Paper::new(min, max, shown.map(flat));
+    for corner in planes[1] {
+        paper.line([0.0; 2], flat(corner), Role::Frame, 1.0);
+    }
+    let far = if diagram.focus.is_some() { Role::Focus } else { Role::Light };
+    paper.outline(planes[1].into_iter().map(flat), far);
+    paper.dashed([0.0; 2], flat(diagram.slope * end), Role::Centre);
+    paper.line(flat(l), flat(p), Role::Primary, 2.0);
+    paper.outline(planes[0].into_iter().map(flat), Role::Faint);
+    for [from, to] in view_axes(diagram) {
+        paper.line(flat(from), flat(to), Role::Grid, 1.0);
+    }
+    paper.outline(front.rim().map(flat), Role::Glass);
+    let far_name = if diagram.focus.is_some() { "focal plane" } else { "what is seen" };
+    let names = [
+        ([0.0; 2], Role::Glass, front.opening()),
+        (flat(DVec3::new(0.0, 0.0, d)), Role::Faint, "view plane"),
+        (flat(DVec3::new(0.0, 0.0, end)), far, far_name),
+    ];
+    paper.row(paper.head(), &names);
+    paper.dot(flat(l), Role::Glass, "l");
+    paper.dot(flat(diagram.q), Role::Text, "q");
+    paper.dot(flat(r), Role::Primary, "r");
+    let name = if diagram.focus.is_some() { "p" } else { "h" };
+    paper.dot(flat(diagram.slope * end), far, name);
+    paper.pane
+}
+
+/// The axes of the view plane.
+fn view_axes(diagram: &Diagram) -> [Line; 2] {
+    let ([x, y], d) = (diagram.half_picture, diagram.view_plane);
+    [DVec3::new(x, 0.0, 0.0), DVec3::new(0.0, y, 0.0)].map(|half| [d * DVec3::Z - half, d * DVec3::Z + half])
+}
+
+fn two_rays(front: &Front<'_>, min: Point, max: Point) -> Pane {
+    let diagram = front.diagram;
+    let flat = |point: DVec3| [point.x, point.y];
+    let d = diagram.view_plane;
+    let primary = front.primary();
+    let [l, r] = [0.0, d].map(|depth| front.at(&primary, depth));
+    let picture = front.picture(d);
+    let mut paper = Paper::new(min, max, picture.into_iter().chain(front.rim()).chain([l, r]).map(flat));
+    paper.outline(picture.into_iter().map(flat), Role::Faint);
+    for [from, to] in view_axes(diagram) {
+        paper.line(flat(from), flat(to), Role::Grid, 1.0);
+    }
+    let names = [([0.0; 2], Role::Glass, front.opening()), (flat(picture[1]), Role::Faint, "view plane")];
+    paper.row(paper.head(), &names);
+    let [x_axis, y_axis] = view_axes(diagram).map(|axis| axis[1]);
+    let (x_end, y_end) = (paper.place(flat(x_axis)), paper.place(flat(y_axis)));
+    paper.pane.name(x_end, Role::Faint, "viewX");
+    paper.pane.name(y_end, Role::Faint, "viewY");
+    let rim: Vec<Point> = front.rim().map(|point| paper.place(flat(point))).collect();
+    paper.pane.area(rim.clone(), Role::GlassInside);
+    paper.pane.outline(rim, Role::Glass, 1.5);
+    paper.dashed([0.0; 2], flat(diagram.q), Role::Centre);
+    paper.line(flat(l), flat(r), Role::Primary, 2.0);
+    paper.dot(flat(l), Role::Glass, "l");
+    paper.dot(flat(diagram.q), Role::Text, "q");
+    paper.dot(flat(r), Role::Primary, "r");
+    paper.pane
+}
+
+fn circle_of_confusion(diagram: &Diagram, min: Point, max: Point) -> Pane {
+    let image = &diagram.image;
+    let v = image.film_distance;
+    let [across, half] = diagram.half_aperture;
+    let end = image.light_up.first().map_or(-1.08 * v, |line| line[1].z);
+    let axis = [[1.04 * end, 0.0], [0.04 * v, 0.0]];
+    let ends = image.light_up.iter().flatten().copied().chain([image.p]).map(side);
+    let shown = axis.into_iter().chain([[0.0, half], [0.0, -half]]).chain(ends);
+    let mut paper = Paper::new(min, max, shown);
+    paper.line(axis[0], axis[1], Role::Frame, 1.0);
+    let x = paper.place([-v, 0.0])[0];
+    let (top, bottom) = (paper.pane.min[1] + LINE + MARGIN, paper.pane.max[1] - LINE);
+    paper.pane.line([x, top], [x, bottom], Role::Film, 2.0);
+    for [from, to] in &image.light_up {
+        paper.line(side(*from), side(*to), Role::Light, 1.0);
+    }
+    paper.dashed([0.0; 2], side(image.p), Role::Centre);
+    paper.line([0.0, half], [0.0, -half], Role::Glass, 4.0);
+    // The chief ray ends in the middle of the circle of confusion, which has the shape of the aperture.
+    let c = 0.5 * image.blur * (half / across.max(half).max(f64::MIN_POSITIVE));
+    paper.line([-v, image.p.y - c], [-v, image.p.y + c], Role::Blur, 4.0);
+    let opening = if diagram.model == CameraModel::Hole { "hole" } else { "lens" };
+    paper.row(paper.head(), &[([-v, 0.0], Role::Film, "film"), ([0.0; 2], Role::Glass, opening)]);
+    paper.dot(side(image.p), Role::Film, "p'");
+    let rim = paper.place([-v, image.p.y - c]);
+    paper.pane.name(rim, Role::Blur, "c");
+    if let Some(crossing) = image.crossing.filter(|crossing| -crossing > 1.04 * end) {
+        paper.dot(side(-crossing * diagram.slope), Role::Blur, "i");
+    }
+    paper.distance(0, -v, Role::Faint, "v");
+    paper.pane
+}
