@@ -22,6 +22,18 @@ impl Area {
         Self { corner: [left, 0], pixels: [window[0] - left, window[1] - below], scale }
     }
 
+    /// The middle of this area, as large as it can be with the proportions of a picture of this size.
+    pub(super) fn with_proportions(&self, size: [u32; 2]) -> Self {
+        let [width, height] = size.map(f64::from);
+        let scale = (f64::from(self.pixels[0]) / width).min(f64::from(self.pixels[1]) / height);
+        let pixels = [0, 1].map(|axis| {
+            let extent = (scale * f64::from(size[axis])).round() as u32;
+            extent.clamp(1, self.pixels[axis])
+        });
+        let corner = [0, 1].map(|axis| self.corner[axis] + (self.pixels[axis] - pixels[axis]) / 2);
+        Self { corner, pixels, scale: self.scale }
+    }
+
     /// The upper left corner, in points.
     pub(super) fn min(&self) -> [f32; 2] {
         self.corner.map(|pixels| pixels as f32 / self.scale)

@@ -31,6 +31,8 @@ pub struct Memory {
     pub folds: BTreeMap<String, bool>,
     /// Whether the focal distance stays as it is while the camera moves, and does not follow what was focused on.
     pub focus_stays: bool,
+    /// The size of the picture that is rendered to a file, if it is not that of the shown picture.
+    pub output: Option<[u32; 2]>,
     /// Whether the user has read the greeting, and then done something.
     pub greeted: bool,
 }

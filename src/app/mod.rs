@@ -14,6 +14,7 @@ mod memory;
 mod message;
 mod navigate;
 mod panel;
+mod render_job;
 mod save_as;
 pub mod telemetry;
 mod typing;

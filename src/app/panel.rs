@@ -1,10 +1,12 @@
 //! The state of the panel: the settings that it edits, and what it needs for that. `ui` draws it.
 
 use super::Options;
+use super::area::Area;
 use super::guide::Guide;
 use super::lesson::{Lesson, Seen};
 use super::memory::Memory;
 use super::message::{Kind, Messages, Offer};
+use super::render_job::RenderJob;
 use super::save_as::{self, Files, SaveAs, absolute};
 use super::typing::Typing;
 use super::zoom_lock::ZoomLock;
@@ -68,6 +70,13 @@ pub(super) struct Panel {
     pub(super) greets: bool,
     pub(super) lesson: Option<Lesson>,
     pub(super) keys: bool,
+    /// The size of the picture that is rendered to a file. The shown picture has its proportions. `None` for the size of
+    /// the shown picture.
+    pub(super) output: Option<[u32; 2]>,
+    /// Whether lines divide the picture into thirds.
+    pub(super) thirds: bool,
+    /// The picture that is being rendered to a file.
+    pub(super) job: Option<RenderJob>,
     /// The width of the panel in points, as the user has set it.
     pub(super) width: f32,
     /// Whether the panel and everything else over the picture is hidden.
@@ -190,6 +199,9 @@ impl Panel {
             greets: !options.memory.greeted,
             lesson: None,
             keys: false,
+            output: options.memory.output.filter(|size| size.iter().all(|extent| *extent > 0)),
+            thirds: false,
+            job: None,
             width: options.memory.panel_width.unwrap_or(WIDTH),
             hidden: false,
             folds: options.memory.folds.clone(),
@@ -267,6 +279,11 @@ impl Panel {
         self.optics.height.max(MIN_STRIP).min(MAX_STRIP_SHARE * window).floor()
     }
 
+    /// The part of the room for the picture that it takes: it has the proportions of the output.
+    pub(super) fn picture_in(&self, room: Area) -> Area {
+        self.output.map_or(room, |size| room.with_proportions(size))
+    }
+
     /// What to remember for the next run, with these sizes of the window.
     pub(super) fn memory(&self, sizes: BTreeMap<u32, [u32; 2]>) -> Memory {
         Memory {
@@ -280,6 +297,7 @@ impl Panel {
             folds: self.folds.clone(),
             focus_stays: !self.follows,
             greeted: !self.greets,
+            output: self.output,
         }
     }
 
@@ -427,6 +445,39 @@ impl Panel {
             self.messages.say_and_offer(text, Offer::SaveWhenDone);
         } else {
             self.messages.say(format!("saved {file}"));
+        }
+    }
+
+    /// Begins to render the picture to the file that is named. `wake` is called whenever there is news.
+    pub(super) fn render_to_file(&mut self, device: &str, wake: impl Fn() + Send + 'static) {
+        let file = match self.files.picture.file() {
+            Ok(file) => file,
+            Err(file) => {
+                let there = file.display();
+                self.messages.fail(format!("{there} is there already; type another name under Files"));
+                return;
+            }
+        };
+        let size = self.output.unwrap_or(self.settings.estimator.size);
+        match RenderJob::start(&self.settings, size, device, &file, wake) {
+            Ok(job) => self.job = Some(job),
+            Err(error) => self.messages.fail(error.to_string()),
+        }
+    }
+
+    /// Reports what has become of the picture that is being rendered to a file.
+    pub(super) fn watch_job(&mut self) {
+        let Some(ended) = self.job.as_mut().and_then(RenderJob::poll) else {
+            return;
+        };
+        self.job = None;
+        match ended {
+            Ok(file) => {
+                self.messages.say(format!("rendered {}", file.display()));
+                self.remember(&file);
+                self.files.picture.suggest_next();
+            }
+            Err(why) => self.messages.fail(format!("the picture was not rendered: {why}")),
         }
     }
 

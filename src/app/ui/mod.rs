@@ -11,6 +11,7 @@ mod light;
 mod message;
 mod numbers;
 mod optics;
+mod output;
 mod overlay;
 mod rows;
 mod sampling;
@@ -84,6 +85,8 @@ pub(super) enum Action {
     SavePicture,
     /// Write the picture once it has all of its points, or not.
     SaveWhenDone,
+    /// Begin to render the picture to the file that is named, in the chosen size.
+    Render,
     /// Do what a message offers.
     Accept(Offer),
     /// Write the scene to the file that is named.
@@ -94,11 +97,12 @@ pub(super) enum Action {
 
 impl Panel {
     /// Draws the panel and what lies over the picture, and changes the settings as the user does.
-    pub(super) fn draw(&mut self, ui: &Ui, status: &Status<'_>, area: &Area) -> Option<Action> {
+    /// `room` is the part of the window that is left for the picture, and `area` the picture itself.
+    pub(super) fn draw(&mut self, ui: &Ui, status: &Status<'_>, room: &Area, area: &Area) -> Option<Action> {
         let mut layout = Vec::new();
         let mut action = None;
         if !self.hidden {
-            let [width, _] = area.min();
+            let [width, _] = room.min();
             let _style = (
                 ui.push_style_var(StyleVar::WindowRounding(0.0)),
                 ui.push_style_var(StyleVar::WindowBorderSize(0.0)),
@@ -117,20 +121,24 @@ impl Panel {
                         | WindowFlags::NO_BRING_TO_FRONT_ON_FOCUS,
                 )
                 .build(|| action = self.column_of_controls(ui, status, &mut layout));
-            self.edge(ui, area, &mut layout);
+            self.edge(ui, room, &mut layout);
         }
+        output::paint_around(ui, room, area);
         self.leave_hidden_field();
         self.divider(ui, area, &mut layout);
         if !self.hidden {
             let sharp = sharp_depths(&self.settings);
             let estimator = &mut self.settings.estimator;
             let before = (estimator.camera, estimator.lens);
-            let saved = self.optics.draw(ui, status.diagram, sharp, area, estimator, &mut layout);
+            let saved = self.optics.draw(ui, status.diagram, sharp, room, estimator, &mut layout);
             self.zoom_lock.follow(Part::Top, before, estimator);
             match saved {
                 Some(Ok(file)) => self.messages.say(format!("saved {}", file.display())),
                 Some(Err(error)) => self.messages.fail(error.to_string()),
                 None => {}
+            }
+            if self.thirds {
+                output::thirds(ui, area);
             }
             overlay::legend(ui, &self.settings, area);
             self.teach(ui, area, &mut layout);
@@ -269,6 +277,7 @@ impl Panel {
         section(ui, "Light", false, folds, layout, |layout| self.light(ui, layout));
         section(ui, "Sampling", false, folds, layout, |layout| self.rows(ui, Part::Sampling, layout));
         section(ui, "View", false, folds, layout, |layout| self.rows(ui, Part::View, layout));
+        section(ui, "Output", false, folds, layout, |layout| action = self.output(ui, layout).or(action));
         section(ui, "Files", false, folds, layout, |layout| {
             action = self.files(ui, &status.progress, layout).or(action)
         });

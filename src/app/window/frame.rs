@@ -30,8 +30,9 @@ impl OpenWindow {
         let Some((image, size)) = self.begin_frame()? else {
             return Ok(());
         };
-        let area = area(&self.panel, size, self.platform.hidpi_factor());
-        let action = self.interact(&area);
+        let room = area(&self.panel, size, self.platform.hidpi_factor());
+        let area = self.panel.picture_in(room);
+        let action = self.interact(&room, &area);
         self.apply(action, area.pixels)?;
         self.name_window();
         self.draw(&image, &area)?;
@@ -85,7 +86,7 @@ impl OpenWindow {
     }
 
     /// Draws the panel and handles the input of the mouse and the keys.
-    fn interact(&mut self, area: &Area) -> Option<Action> {
+    fn interact(&mut self, room: &Area, area: &Area) -> Option<Action> {
         let ui = self.imgui.new_frame();
         let preparing = (!self.graphics.has_started()).then(|| "preparing ...".into());
         let status = Status {
@@ -101,8 +102,9 @@ impl OpenWindow {
                 .map(|name| format!("loading {} ...", name.display()))
                 .or(preparing),
         };
+        self.panel.watch_job();
         let camera = self.panel.settings.estimator.camera;
-        let action = self.panel.draw(ui, &status, area).or_else(|| keys::pressed(ui));
+        let action = self.panel.draw(ui, &status, room, area).or_else(|| keys::pressed(ui));
         keys::help(ui, &mut self.panel.keys);
         self.navigate.take_input(ui, &mut self.panel.settings.estimator, area);
         self.focus.take_input(ui, &mut self.panel, area);
@@ -285,6 +287,13 @@ impl OpenWindow {
             Action::CopyCommand => {}
             Action::SaveScene => self.panel.save_scene(),
             Action::SaveWhenDone => self.panel.save_when_done ^= true,
+            Action::Render => {
+                let (device, waker) = (self.graphics.device_name(), self.waker.clone());
+                // Sending fails only when the window has closed.
+                self.panel.render_to_file(device, move || {
+                    let _ = waker.send_event(());
+                });
+            }
             Action::Accept(offer) => return self.accept(offer),
             Action::SavePicture => {
                 if let Some(file) = self.panel.file_for(Kind::Picture) {

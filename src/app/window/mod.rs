@@ -63,6 +63,8 @@ struct OpenWindow {
     focus: Focus,
     navigate: Navigate,
     history: History<State>,
+    /// Wakes the window when another thread has news.
+    waker: EventLoopProxy<()>,
     modifiers: Modifiers,
     has_clipboard: bool,
     window: Arc<Window>,
@@ -270,7 +272,7 @@ impl OpenWindow {
         let window = event_loop.create_window(attributes);
         let window = Arc::new(window.map_err(|error| Error::Window(error.to_string()))?);
         let size = window.inner_size();
-        let area = area(&panel, [size.width, size.height], window.scale_factor());
+        let area = panel.picture_in(area(&panel, [size.width, size.height], window.scale_factor()));
         panel.settings.estimator.size = area.pixels.map(|extent| extent.clamp(1, MAX_EXTENT));
         let graphics = Graphics::new(&window, instance, &options.device)?;
         let loader = Loader::new(graphics.device(), &panel.settings, waker.clone());
@@ -291,6 +293,7 @@ impl OpenWindow {
             imgui,
             history: History::new(panel.state()),
             panel,
+            waker: waker.clone(),
             focus: Focus::default(),
             navigate: Navigate::default(),
             modifiers: Modifiers::default(),
