@@ -108,6 +108,8 @@ pub mod constant {
         APERTURE,
         /// Whether the lens is shifted or tilted.
         HAS_MOVEMENTS,
+        /// Whether the light is not even over the aperture.
+        HAS_PROFILE,
         /// Where the range of the first kind of shapes ends in the list. The constants of the other kinds have the
         /// numbers after this one, so this must be the last name.
         SHAPE_END,

@@ -64,6 +64,7 @@ fn twins() -> Vec<Twin> {
                 max_cats_eye_shift,
                 cells,
                 shutter,
+                profile,
                 axis
             ]
         ),

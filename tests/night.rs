@@ -136,6 +136,8 @@ fn nothing_is_brighter_than_it_is_reckoned_with() {
         };
         let mut wide = Estimator { jitter: 4.0, ..whole.clone() };
         wide.lens.diameter *= 4.0;
+        let mut bubbles = wide.clone();
+        (bubbles.aperture.cats_eye, bubbles.aperture.profile) = (0.7, -1.0);
         let oval = Aperture { anamorphic: 2.0, blades: 3, ..Aperture::default() };
         let bladed = Estimator { aperture: oval, ..whole.clone() };
         let pinhole = Estimator { model: CameraModel::Pinhole, ..whole.clone() };
@@ -149,7 +151,7 @@ fn nothing_is_brighter_than_it_is_reckoned_with() {
         };
         let movements = [(20.0, 0.0, [0.0; 2]), (-30.0, 0.0, [0.0, 7.0]), (12.0, 120.0, [-4.0, 3.0])]
             .map(|of| tilted(of.0, of.1, of.2));
-        let others = [whole.clone(), large, hole(true), hole(false), wide, bladed, pinhole];
+        let others = [whole.clone(), large, hole(true), hole(false), wide, bladed, pinhole, bubbles];
         for estimator in others.into_iter().chain(movements) {
             let most = excess(&estimator);
             // Each mirror can add something of its own.

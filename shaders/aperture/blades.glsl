@@ -19,7 +19,11 @@ vec3 blades_point(const vec2 q, const vec2 xi) {
     );
     vec2 direction = share <= aperture.straight_share ? straight : bent;
     float square = aperture.squared_apothem / (direction.x * direction.x) + aperture.roundness;
-    direction *= sqrt(square * xi.y);
+    float outwards = xi.y;
+    if (HAS_PROFILE == 1u) {
+        outwards *= profile_growth(outwards);
+    }
+    direction *= sqrt(square * outwards);
     vec2 edge = aperture_buffer.edges[uint(blade)];
     vec2 point = direction.x * edge + sign(along) * direction.y * vec2(-edge.y, edge.x);
     return vec3(aperture.stretch * point, 1.0);

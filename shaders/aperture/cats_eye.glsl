@@ -56,6 +56,10 @@ vec3 cats_eye_point(const vec2 q, const vec2 xi) {
     vec2 off = -aperture.cats_eye_shift * from_axis;
     off *= min(1.0, aperture.max_cats_eye_shift / max(length(off), 1e-20));
     vec3 point = overlap_point(off, xi);
+    if (HAS_PROFILE == 1u) {
+        // The rim cuts off a part of the light, not of its middle, so the points keep their places and have weights.
+        point.z *= profile_light(dot(point.xy, point.xy));
+    }
     return vec3(aperture.stretch * point.xy, point.z);
 }
 

@@ -6,7 +6,7 @@
 #include "aperture/record.glsl"
 
 vec3 ellipse_point(const vec2 q, const vec2 xi) {
-    return vec3(aperture.stretch * concentric_disk(xi), 1.0);
+    return vec3(aperture.stretch * lit_disk(xi), 1.0);
 }
 
 #endif

@@ -11,6 +11,7 @@
 #include "core/sampling.glsl"
 
 layout(constant_id = ID_APERTURE) const uint APERTURE = APERTURE_DISC;
+layout(constant_id = ID_HAS_PROFILE) const uint HAS_PROFILE = 0u;
 
 struct Aperture {
     vec2 stretch; // half the width and half the height, where the diameter is two
@@ -26,6 +27,7 @@ struct Aperture {
     float max_cats_eye_shift; // the largest shift
     uvec2 cells; // columns and rows of the image
     float shutter; // how long the shutter is open, in seconds
+    float profile; // how the light is spread over the aperture: -1 at the rim, 0 evenly, 1 in the middle
     vec2 axis; // the film point that the axis of the lens goes through, if it is not the middle of the picture
 };
 
@@ -40,6 +42,28 @@ Aperture aperture;
 // This must be called at the start of main().
 void keep_aperture() {
     aperture = aperture_buffer.shape;
+}
+
+// The light at a point of the aperture, relative to the mean. t is the squared distance from the centre, relative to that of
+// the rim, and t is spread evenly over a disc.
+float profile_light(const float t) {
+    return 1.0 + aperture.profile * (1.0 - 2.0 * t);
+}
+
+// Moves points that are spread evenly so that they are spread as the light is: returns by how much t must grow. The light
+// within t is (1 + p) t - p t^2, which must be what t was.
+float profile_growth(const float t) {
+    float p = aperture.profile;
+    return 2.0 / max(1.0 + p + sqrt(max((1.0 + p) * (1.0 + p) - 4.0 * p * t, 0.0)), 1e-10);
+}
+
+// A point of the unit disk. Points are spread as the light is.
+vec2 lit_disk(const vec2 xi) {
+    vec2 point = concentric_disk(xi);
+    if (HAS_PROFILE == 1u) {
+        point *= sqrt(profile_growth(dot(point, point)));
+    }
+    return point;
 }
 
 // Cosine and sine of an angle up to pi / 3. The errors of the built-in functions may be as large as 2^-11.

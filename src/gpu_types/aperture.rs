@@ -22,7 +22,7 @@ pub struct Aperture {
     pub max_cats_eye_shift: f32,
     pub cells: [u32; 2],
     pub shutter: f32,
-    pub pad0: u32,
+    pub profile: f32,
     pub axis: [f32; 2],
 }
 
@@ -50,7 +50,12 @@ impl ApertureBuffer {
     /// The aperture of a picture.
     pub fn new(estimator: &Estimator) -> Self {
         let mut stretch = estimator.aperture.stretch();
-        let mut shape = Aperture { cells: [1, 1], shutter: estimator.shutter, ..Zeroable::zeroed() };
+        let mut shape = Aperture {
+            cells: [1, 1],
+            shutter: estimator.shutter,
+            profile: estimator.aperture.profile_in_use(estimator.model),
+            ..Zeroable::zeroed()
+        };
         let mut edges = [[0.0; 2]; MAX_BLADES as usize];
         match estimator.aperture.kind(estimator.model) {
             ApertureKind::Disc(_) | ApertureKind::Ellipse(_) => {}

@@ -42,6 +42,7 @@ impl Brightest {
         let of_materials = luminances(scene, estimator.max_bounces);
         let sky = luminance(sky(scene)) as f32;
         let mut grid = Self { luminances: vec![sky; (columns * rows) as usize], cell, columns };
+        let share = estimator.aperture.largest_share(estimator.model) as f32;
         let view = View::new(estimator);
         for (plane, of) in scene.of_kind::<Plane>() {
             grid.raise(of_materials[of.material as usize], |cell| view.sees(plane, cell));
@@ -61,6 +62,7 @@ impl Brightest {
                 grid.luminances[cell] = grid.luminances[cell].max(*bright);
             }
         }
+        grid.luminances.iter_mut().for_each(|luminance| *luminance *= share);
         grid
     }
 

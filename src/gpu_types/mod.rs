@@ -210,9 +210,11 @@ pub fn film_constants(estimator: &Estimator) -> [(u32, u32); 2] {
 }
 
 /// The specialization constants of the passes that trace rays through the lens, without those of the scene.
-pub fn lens_constants(estimator: &Estimator) -> [(u32, u32); 4] {
+pub fn lens_constants(estimator: &Estimator) -> [(u32, u32); 5] {
     let [sampler, has_moments] = film_constants(estimator);
-    [sampler, has_moments, aperture_constant(estimator), movements_constant(estimator)]
+    let has_profile = estimator.aperture.profile_in_use(estimator.model) != 0.0;
+    let profile = (constant::HAS_PROFILE, has_profile.into());
+    [sampler, has_moments, aperture_constant(estimator), movements_constant(estimator), profile]
 }
 
 /// `HAS_MOVEMENTS` of movements.glsl. A pinhole and a hole see the same from every tilt, and need no code for a shift.

@@ -48,7 +48,7 @@ pub struct Keys {
     /// The image of the aperture, if it has one.
     aperture: Option<ApertureImage>,
     /// The constants of the passes that trace rays, besides those of the scene.
-    lens: [(u32, u32); 4],
+    lens: [(u32, u32); 5],
     /// The constants of the passes that work on the film alone.
     film: [(u32, u32); 2],
     is_adaptive: bool,

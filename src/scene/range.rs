@@ -33,6 +33,8 @@ pub const ROUNDNESSES: [f32; 2] = [0.0, 1.0];
 pub const ANAMORPHICS: [f32; 2] = [0.1, 10.0];
 /// The displacement of the front rim of the lens, in diameters.
 pub const CATS_EYES: [f32; 2] = [0.0, 1.0];
+/// How light is spread over an aperture.
+pub const PROFILES: [f32; 2] = [-1.0, 1.0];
 /// The time that the shutter is open, in seconds.
 pub const SHUTTERS: [f32; 2] = [1e-6, 1e4];
 /// The speed of the film.

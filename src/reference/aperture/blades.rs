@@ -1,10 +1,11 @@
 //! An iris of blades. The squared distance of a blade's edge from the centre is a mixture of the squared distances of a
 //! straight edge and of a circle.
 
+use super::squared_distance;
 use crate::scene::Blades;
 use std::f64::consts::{PI, TAU};
 
-pub(super) fn point(of: &Blades, xi: [f64; 2]) -> ([f64; 2], f64) {
+pub(super) fn point(of: &Blades, p: f64, xi: [f64; 2]) -> ([f64; 2], f64) {
     let (half, round) = (PI / f64::from(of.count), f64::from(of.roundness));
     let place = xi[0] * f64::from(of.count);
     let (blade, along) = (place.floor(), 2.0 * place.fract() - 1.0);
@@ -19,6 +20,6 @@ pub(super) fn point(of: &Blades, xi: [f64; 2]) -> ([f64; 2], f64) {
     };
     let edge = ((1.0 - round) * (half.cos() / angle.cos()).powi(2) + round).sqrt();
     let middle = f64::from(of.rotation_degrees).to_radians() + TAU * blade / f64::from(of.count);
-    let (radius, angle) = (edge * xi[1].sqrt(), middle + angle.copysign(along));
+    let (radius, angle) = (edge * squared_distance(p, xi[1]).sqrt(), middle + angle.copysign(along));
     ([radius * angle.cos(), radius * angle.sin()], 1.0)
 }

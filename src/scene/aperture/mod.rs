@@ -103,11 +103,22 @@ pub struct Aperture {
     pub cats_eye: f32,
     /// An image that gives the shape instead: light comes in where the image is bright.
     pub image: Option<ApertureImage>,
+    /// How the light is spread over the aperture. At the distance `r` from the centre, as a share of that of the rim, there
+    /// is `1 + p (1 - 2 r^2)` of the light that there would be if it came in evenly: as much in all.
+    pub profile: f32,
 }
 
 impl Default for Aperture {
     fn default() -> Self {
-        Self { blades: 0, rotation_degrees: 0.0, roundness: 0.0, anamorphic: 1.0, cats_eye: 0.0, image: None }
+        Self {
+            blades: 0,
+            rotation_degrees: 0.0,
+            roundness: 0.0,
+            anamorphic: 1.0,
+            cats_eye: 0.0,
+            image: None,
+            profile: 0.0,
+        }
     }
 }
 
@@ -147,6 +158,20 @@ impl Aperture {
             }
             None if self.anamorphic != 1.0 => ApertureKind::Ellipse(Ellipse),
             None => ApertureKind::Disc(Disc),
+        }
+    }
+
+    /// The profile, or 0 where there is none: without a lens, and where an image says where light comes in.
+    pub fn profile_in_use(&self, model: CameraModel) -> f32 {
+        if model == CameraModel::ThinLens && self.image.is_none() { self.profile } else { 0.0 }
+    }
+
+    /// The largest share of its light that a sample has. A rim cuts off a part of the profile, so samples have weights; the
+    /// samples of other apertures are spread as the light is.
+    pub fn largest_share(&self, model: CameraModel) -> f64 {
+        match self.kind(model) {
+            ApertureKind::CatsEye(_) => 1.0 + f64::from(self.profile.abs()),
+            _ => 1.0,
         }
     }
 

@@ -4,7 +4,7 @@ use super::error::{ParseError, named};
 use super::number::{Positive, Vector, ranged};
 use crate::scene::{
     ANAMORPHICS, Aperture, ApertureImage, BLADES, CATS_EYES, Camera, CameraModel, DEFAULT_SHUTTER, DIAMETERS,
-    F_NUMBERS, FOCAL_DISTANCES, FOCAL_LENGTHS_MM, Hole, ISOS, Lens, METRES_PER_UNIT, PRESETS, ROTATIONS,
+    F_NUMBERS, FOCAL_DISTANCES, FOCAL_LENGTHS_MM, Hole, ISOS, Lens, METRES_PER_UNIT, PRESETS, PROFILES, ROTATIONS,
     ROUNDNESSES, SHIFTS_MM, SHUTTERS, Sensor, TILTS, VFOV_DEGREES, View, in_range, in_range_or_zero,
 };
 use glam::DVec3;
@@ -45,6 +45,7 @@ pub(super) struct CameraTable {
     anamorphic: Option<Spanned<f32>>,
     cats_eye: Option<Spanned<f32>>,
     aperture_image: Option<Spanned<String>>,
+    bokeh_profile: Option<Spanned<f32>>,
     shutter: Option<Spanned<f32>>,
     iso: Option<Spanned<f32>>,
 }
@@ -203,6 +204,7 @@ fn aperture(span: &Spanned<CameraTable>, folder: &Path) -> Result<Aperture, Pars
         anamorphic: ranged("anamorphic", table.anamorphic.as_ref(), ANAMORPHICS)?.unwrap_or(plain.anamorphic),
         cats_eye: ranged("cats_eye", table.cats_eye.as_ref(), CATS_EYES)?.unwrap_or(plain.cats_eye),
         image: table.aperture_image.as_ref().map(read).transpose()?,
+        profile: ranged("bokeh_profile", table.bokeh_profile.as_ref(), PROFILES)?.unwrap_or(plain.profile),
     };
     aperture
         .validate(|| ["blades", "cats_eye", "aperture_image"])

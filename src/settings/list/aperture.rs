@@ -1,7 +1,7 @@
 //! The shape of the aperture.
 
 use super::{EVEN, LOGARITHMIC, camera, field, row};
-use crate::scene::{ANAMORPHICS, BLADES, CATS_EYES, ROTATIONS, ROUNDNESSES};
+use crate::scene::{ANAMORPHICS, BLADES, CATS_EYES, CameraModel, PROFILES, ROTATIONS, ROUNDNESSES};
 use crate::settings::{Access, Part, Role, Row, Setting, Settings, Slider, Unit, Widget};
 
 fn has_iris(settings: &Settings) -> bool {
@@ -12,6 +12,10 @@ fn has_iris(settings: &Settings) -> bool {
 fn has_rim(settings: &Settings) -> bool {
     let aperture = &settings.estimator.aperture;
     aperture.image.is_none() && aperture.blades == 0 && aperture.cats_eye > 0.0
+}
+
+fn has_profile(settings: &Settings) -> bool {
+    settings.estimator.model == CameraModel::ThinLens && settings.estimator.aperture.image.is_none()
 }
 
 /// The shape of the aperture.
@@ -103,6 +107,25 @@ pub(super) static APERTURE: &[Setting] = &[
             "The height of the aperture divided by its width. Lenses for wide screens squeeze the picture, and blur into tall ovals.",
             Widget::Slider(Slider { range: |_| [0.5, 2.0], decimals: Some(2), ..LOGARITHMIC }),
         ),
+    },
+    Setting {
+        flag: "bokeh-profile",
+        letter: None,
+        value_name: "P",
+        help: "How the light is spread over the aperture, from -1 to 1: below 0 blurred lights have bright rims, like soap \
+               bubbles, above 0 they fade outwards. The picture has as much light in all. It has no effect on an \
+               aperture image, and on a hole",
+        default: "the scene's, or 0",
+        role: Role::Estimator,
+        key: camera("bokeh_profile"),
+        access: Access::Single(field!(estimator.aperture.profile), PROFILES, Unit::Plain),
+        row: Some(Row {
+            part: Part::Aperture,
+            label: "Bokeh profile",
+            help: "How the light is spread over the aperture. Below 0, blurred lights have bright rims, like soap bubbles; above 0 they fade outwards, and blur looks soft.",
+            shown: has_profile,
+            widget: Widget::Slider(Slider { range: |_| [-1.0, 1.0], decimals: Some(2), ..EVEN }),
+        }),
     },
     Setting {
         flag: "aperture-image",
