@@ -30,7 +30,7 @@ void main() {
         return;
     }
     vec2 q = view_plane_point(push.camera, push.extent, pixel, vec2(0.0));
-    Ray ray = primary_ray(push.camera, q, vec2(0.0));
+    Ray ray = primary_ray(push.camera, q, vec2(0.0), GREEN);
     bool given_up = false;
     Hit hit = intersect_scene(ray, given_up);
     vec4 seen = vec4(vec3(0.0), MISS);

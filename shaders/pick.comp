@@ -58,7 +58,7 @@ void main() {
         q = view_plane_point(push.camera, push.extent, pixel, film_offset(xi.xy, push.camera.jitter));
         lens_point = aperture_point(q, xi.zw).xy;
     }
-    Ray ray = primary_ray(push.camera, q, lens_point);
+    Ray ray = primary_ray(push.camera, q, lens_point, GREEN);
     bool given_up = false;
     Hit hit = intersect_scene(ray, given_up);
     Camera camera = push.camera;

@@ -110,6 +110,8 @@ pub mod constant {
         HAS_MOVEMENTS,
         /// Whether the light is not even over the aperture.
         HAS_PROFILE,
+        /// Whether the focal length depends on the colour of the light.
+        HAS_DISPERSION,
         /// Where the range of the first kind of shapes ends in the list. The constants of the other kinds have the
         /// numbers after this one, so this must be the last name.
         SHAPE_END,
@@ -280,6 +282,9 @@ numbers! {
     PREVIEW_STRIDE: U32(u32) = 4;
     /// Where the traced pixel lies in its cell of the preview: see [`PREVIEW_STRIDE`].
     PREVIEW_SITE: U32(u32) = 2;
+    /// By how much stronger a lens bends light of 610, 550 and 465 nm than it bends light of 550 nm, multiplied by the Abbe
+    /// number of its glass: `(1 / l^2 - 1 / 550^2) / (1 / 486.1^2 - 1 / 656.3^2)` for the wavelength `l`, by Cauchy's formula.
+    DISPERSION: Vec3([f32; 3]) = [-0.323_67, 0.0, 0.690_45];
     /// The overlay's colour of everything that is blurred in front of the focal plane, in linear light.
     IN_FRONT: Vec3([f32; 3]) = [0.02, 0.22, 1.0];
     /// The overlay's colour of everything that is blurred behind the focal plane, in linear light.

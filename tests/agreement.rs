@@ -72,7 +72,7 @@ fn the_bounds_are_bounds() {
     let holds = |texel: [f64; 4], how_many: usize| {
         let mut device = vec![[0.5, 0.5, 0.5, 1.0]; 1000];
         device[..how_many].fill(texel);
-        let mut agreement = Agreement::default();
+        let mut agreement = Agreement::new(1);
         agreement.add(&device, &oracle);
         agreement.holds()
     };
@@ -82,7 +82,7 @@ fn the_bounds_are_bounds() {
     assert!(!holds([0.5, 0.5, 0.5, 0.0], 2));
     // Each sample agrees, but all are a little brighter.
     assert!(!holds([0.5009, 0.5009, 0.5009, 1.0], 1000));
-    assert!(!Agreement::default().holds(), "nothing compared is nothing proved");
+    assert!(!Agreement::new(1).holds(), "nothing compared is nothing proved");
 }
 
 /// Two lamps far off the axis, one before and one behind the focal plane.
@@ -191,7 +191,7 @@ fn independent_samples_estimate_the_same_picture() {
 /// Catches a proof that fails where there is nothing but black on both sides: no light over no light is not a number.
 #[test]
 fn two_black_pictures_agree() {
-    let mut agreement = thinlens::verify::Agreement::default();
+    let mut agreement = thinlens::verify::Agreement::new(1);
     agreement.add(&[[0.0, 0.0, 0.0, 1.0]], &[[0.0, 0.0, 0.0, 1.0]]);
     assert!(agreement.holds(), "{agreement:?}");
     agreement.add(&[[1.0, 0.0, 0.0, 1.0]], &[[0.0, 0.0, 0.0, 1.0]]);

@@ -132,7 +132,7 @@ fn shapes(folder: &Path) -> Vec<Shape> {
     }
     // Profiles: at the squared distance t from the centre, as a share of that of the rim, 1 + p (1 - 2 t) of the light.
     for profile in [-1.0, -0.4, 0.7, 1.0] {
-        let of = |t: f64| if t <= 1.0 { 1.0 + f64::from(profile) * (1.0 - 2.0 * t) } else { 0.0 };
+        let of = move |t: f64| if t <= 1.0 { 1.0 + f64::from(profile) * (1.0 - 2.0 * t) } else { 0.0 };
         let aperture = Aperture { profile, ..plain.clone() };
         let light = move |[x, y]: [f64; 2]| of(x * x + y * y);
         shapes.push(Shape { aperture, film: [0.3, 0.1], light: Box::new(light) });

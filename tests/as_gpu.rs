@@ -6,6 +6,8 @@
 mod adaptive;
 #[path = "agreement.rs"]
 mod agreement;
+#[path = "colors.rs"]
+mod colors;
 #[path = "film.rs"]
 mod film;
 #[path = "keys.rs"]
@@ -14,5 +16,7 @@ mod keys;
 mod mesh_picture;
 #[path = "motion.rs"]
 mod motion;
+#[path = "movements.rs"]
+mod movements;
 #[path = "surfaces.rs"]
 mod surfaces;

@@ -40,7 +40,8 @@ fn twins() -> Vec<Twin> {
                 w,
                 jitter,
                 tilt,
-                inverse_focal_length
+                inverse_focal_length,
+                dispersion
             ]
         ),
         twin!("Lattice", Lattice, [extent, origin, stride, first_row, row_step, row_count]),

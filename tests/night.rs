@@ -138,9 +138,6 @@ fn nothing_is_brighter_than_it_is_reckoned_with() {
         wide.lens.diameter *= 4.0;
         let mut bubbles = wide.clone();
         (bubbles.aperture.cats_eye, bubbles.aperture.profile) = (0.7, -1.0);
-        let oval = Aperture { anamorphic: 2.0, blades: 3, ..Aperture::default() };
-        let bladed = Estimator { aperture: oval, ..whole.clone() };
-        let pinhole = Estimator { model: CameraModel::Pinhole, ..whole.clone() };
         // Tilts in three directions, of a lens that is not small against its distance from the film, and a shift.
         let tilted = |degrees: f32, direction: f32, shift: [f32; 2]| {
             let mut of = whole.clone();
@@ -149,9 +146,14 @@ fn nothing_is_brighter_than_it_is_reckoned_with() {
             of.camera.focus_breathing &= of.camera.can_focus(&of.lens).is_ok();
             of
         };
+        let mut colors = tilted(10.0, 0.0, [2.0, 0.0]);
+        colors.lens.abbe_number = 5;
+        let oval = Aperture { anamorphic: 2.0, blades: 3, ..Aperture::default() };
+        let bladed = Estimator { aperture: oval, ..whole.clone() };
+        let pinhole = Estimator { model: CameraModel::Pinhole, ..whole.clone() };
         let movements = [(20.0, 0.0, [0.0; 2]), (-30.0, 0.0, [0.0, 7.0]), (12.0, 120.0, [-4.0, 3.0])]
             .map(|of| tilted(of.0, of.1, of.2));
-        let others = [whole.clone(), large, hole(true), hole(false), wide, bladed, pinhole, bubbles];
+        let others = [whole.clone(), large, hole(true), hole(false), wide, bladed, pinhole, bubbles, colors];
         for estimator in others.into_iter().chain(movements) {
             let most = excess(&estimator);
             // Each mirror can add something of its own.

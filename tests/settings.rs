@@ -66,7 +66,11 @@ fn out_of_range(setting: &Setting) -> Vec<String> {
             let around = [low.checked_sub(1), high.checked_add(1)];
             around.into_iter().flatten().map(|number| number.to_string()).collect()
         }
-        Access::WholeOrZero(_, [low, high], _) => vec![(low - 1).to_string(), (high + 1).to_string()],
+        Access::WholeOrZero(_, [low, high], _) => {
+            // One less than 1 is 0, which is allowed.
+            let around = [*low - 1, *high + 1];
+            around.into_iter().filter(|number| *number > 0).map(|number| number.to_string()).collect()
+        }
         Access::Vector(_, [low, high]) => {
             vec![format!("0,{},1", low * 2.0), format!("1,0,{}", high * 2.0), "NaN,0,0".into()]
         }
@@ -287,7 +291,8 @@ fn each_row_fits_its_setting() {
                 let [first, last] = (slider.range)(&plain).map(f64::from);
                 assert!(first < last, "{}: {first} to {last}", row.label);
                 // A range in f64 is met as nearly as f32 can.
-                assert!(first >= low * (1.0 - 1e-6) && last <= high * (1.0 + 1e-6), "{}", row.label);
+                let [low, high] = [low - 1e-6 * low.abs(), high + 1e-6 * high.abs()];
+                assert!(first >= low && last <= high, "{}", row.label);
                 // A slider shows its number, and what it shows has a unit or is a number.
                 assert!(
                     setting.shown(&plain).contains(|letter: char| letter.is_ascii_digit() || letter == 'o')
@@ -303,7 +308,8 @@ fn each_row_fits_its_setting() {
         let fits = match &setting.access {
             Access::Single(_, range, _) => within(range.map(f64::from)),
             Access::Double(_, range, _) | Access::Vector(_, range) => within(*range),
-            Access::Whole(_, range) | Access::WholeOrZero(_, range, _) => within(range.map(f64::from)),
+            Access::Whole(_, range) => within(range.map(f64::from)),
+            Access::WholeOrZero(_, [_, high], _) => within([0.0, f64::from(*high)]),
             Access::Switch(_) => matches!(row.widget, Widget::Box),
             Access::Choice(..) => matches!(row.widget, Widget::List),
             Access::Tolerance(_) => matches!(row.widget, Widget::Length),

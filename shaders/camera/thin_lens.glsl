@@ -17,6 +17,13 @@
 #include "camera/movements.glsl"
 #include "core/ray.glsl"
 
+layout(constant_id = ID_HAS_DISPERSION) const uint HAS_DISPERSION = 0u;
+
+// Where red, green and blue are in DISPERSION. What is in focus is in focus for green light.
+const uint RED = 0u;
+const uint GREEN = 1u;
+const uint BLUE = 2u;
+
 struct Camera {
     vec3 eye;
     float lens_radius;
@@ -28,6 +35,7 @@ struct Camera {
     float jitter; // pixels
     vec2 tilt; // the axis of a tilted lens, as seen from the front: its parts along u and v
     float inverse_focal_length; // 1 / f
+    float dispersion; // one over the Abbe number of the glass
 };
 
 // The film position of a sample, as a point of the view plane at distance one, y up. The lens equations call it q.
@@ -46,14 +54,29 @@ float inverse_depth_in_focus(const Camera camera, const vec2 q) {
     return inverse;
 }
 
-// The primary ray of the film point q and the lens point l (unit disk).
+// By how much 1 / z is larger for light of this colour. The lens bends it more strongly, so c / f is larger.
+float color_error(const Camera camera, const vec2 q, const uint channel) {
+    float along_axis = 1.0;
+    if (HAS_MOVEMENTS == 1u) {
+        vec3 backwards = cross(camera.u, camera.v);
+        vec3 aside = camera.tilt.x * camera.u + camera.tilt.y * camera.v;
+        vec3 axis = aside - sqrt(1.0 - dot(camera.tilt, camera.tilt)) * backwards;
+        along_axis = dot(q.x * camera.u + q.y * camera.v - camera.w, axis);
+    }
+    return camera.dispersion * DISPERSION[channel] * along_axis * camera.inverse_focal_length;
+}
+
+// The primary ray of the film point q and the lens point l (unit disk), for light of a colour.
 //
 // The centre ray runs from the lens centre through q and meets the focal plane at
 // p = (F q.x, F q.y, -F). The primary ray runs from l to p, along (p - l) / F. If the lens radius
 // is zero, the ray does not depend on F.
-Ray primary_ray(const Camera camera, const vec2 q, const vec2 disk) {
+Ray primary_ray(const Camera camera, const vec2 q, const vec2 disk, const uint channel) {
     vec2 l = camera.lens_radius * disk;
     float inverse = inverse_depth_in_focus(camera, q);
+    if (HAS_DISPERSION == 1u) {
+        inverse += color_error(camera, q, channel);
+    }
     if (HAS_MOVEMENTS == 1u) {
         // The shortest turn that takes the axis to that of the tilted lens also turns its points.
         float back = dot(camera.tilt, l);

@@ -44,13 +44,26 @@ vec4 trace_batch(const TracePush push, const uvec2 pixel, out float moment) {
         vec2 offset = film_offset(xi.xy, push.camera.jitter);
         vec2 q = view_plane_point(push.camera, push.lattice.extent, pixel, offset);
         vec3 lens_point = aperture_point(q, xi.zw);
-        Ray ray = primary_ray(push.camera, q, lens_point.xy);
         if (SCENE_MOVES == 1u) {
             ray_time = (time_value(time_keys, push.first_sample + i) - 0.5) * aperture.shutter;
         }
-        bool given_up;
         PathSampler path = PathSampler(push.seed, pixel, push.first_sample + i);
-        vec3 color = radiance(ray, path, push.max_bounces, rays, given_up);
+        vec3 color = vec3(0.0);
+        bool given_up = false;
+        uint channel = RED;
+        // If the lens has colour errors, a sample has a ray for each colour, through the same points of film and lens.
+        do {
+            Ray ray = primary_ray(push.camera, q, lens_point.xy, channel);
+            bool lost;
+            vec3 seen = radiance(ray, path, push.max_bounces, rays, lost);
+            if (HAS_DISPERSION == 1u) {
+                given_up = given_up || lost;
+                color[channel] = seen[channel];
+            } else {
+                given_up = lost;
+                color = seen;
+            }
+        } while (HAS_DISPERSION == 1u && ++channel <= BLUE);
         color *= lens_point.z;
         if (!given_up && is_finite(color)) {
             vec4 one = vec4(color, 1.0);

@@ -2,7 +2,7 @@
 
 use super::area::Area;
 use super::words::length;
-use crate::scene::CameraModel;
+use crate::scene::{CameraModel, Lens};
 use crate::settings::Settings;
 use imgui::{Condition, Key, Ui, WindowFlags};
 
@@ -67,7 +67,8 @@ impl Guide {
         };
         let said = match lens {
             Ok(lens) => {
-                (estimator.lens, estimator.model) = (lens, CameraModel::ThinLens);
+                estimator.lens = Lens { abbe_number: estimator.lens.abbe_number, ..lens };
+                estimator.model = CameraModel::ThinLens;
                 let distance = length(lens.focal_distance.into());
                 Ok(format!("The lens is now f/{:.2}, focused at {distance}.", estimator.f_number()))
             }

@@ -2,6 +2,7 @@
 //! bright may have been missed by all samples so far. See `shaders/core/adaptive.glsl`.
 
 use super::Camera;
+use crate::interface::DISPERSION;
 use crate::scene::{Frame, Plane, Scene};
 use crate::settings::Estimator;
 use glam::{DQuat, DVec2, DVec3, Vec3};
@@ -42,7 +43,9 @@ impl Brightest {
         let of_materials = luminances(scene, estimator.max_bounces);
         let sky = luminance(sky(scene)) as f32;
         let mut grid = Self { luminances: vec![sky; (columns * rows) as usize], cell, columns };
-        let share = estimator.aperture.largest_share(estimator.model) as f32;
+        // Three colours may come from three things.
+        let things = if estimator.dispersion() == 0.0 { 1.0 } else { 3.0 };
+        let share = (things * estimator.aperture.largest_share(estimator.model)) as f32;
         let view = View::new(estimator);
         for (plane, of) in scene.of_kind::<Plane>() {
             grid.raise(of_materials[of.material as usize], |cell| view.sees(plane, cell));
@@ -118,15 +121,39 @@ struct Area {
     to: DVec2,
 }
 
+/// Where a lens is in focus.
+#[derive(Clone, Copy)]
+struct Focus {
+    /// `1 / z` on the optical axis.
+    inverse_distance: f64,
+    /// How it grows with the film point: see [`crate::scene::FocalPlane`].
+    slope: DVec2,
+}
+
+impl Focus {
+    /// The film point whose ray through a point `l` of the lens goes through the point `at`. `None` if there is none because
+    /// `at` does not lie before the lens.
+    ///
+    /// The ray runs along `(q, -1) - l s`, where `s` is `1 / z` at `q`, which is linear in `q`. So the condition that the ray
+    /// is parallel to `at - l` is linear in `q` too.
+    fn film_point(&self, at: DVec3, l: DVec3) -> Option<DVec2> {
+        let way = at - l;
+        let (depth, aside) = (-way.z, way.truncate());
+        let below = depth * (1.0 - self.slope.dot(l.truncate())) - l.z * self.slope.dot(aside);
+        let straight = 1.0 - self.slope.dot(l.truncate()) + l.z * self.inverse_distance;
+        let focus = self.inverse_distance * depth + self.slope.dot(aside);
+        (below > 0.0 && straight > 0.0).then(|| (straight * aside + focus * l.truncate()) / below)
+    }
+}
+
 /// The projection of points of the scene onto the film.
 struct View {
     frame: Frame,
     eye: DVec3,
     /// The corners of a square around the lens.
     lens: [DVec3; 4],
-    /// `1 / z` on the optical axis, and how it grows with the film point: see [`crate::scene::FocalPlane`].
-    inverse_focal_distance: f64,
-    slope: DVec2,
+    /// Where the lens is in focus: for all light, or for each of the three colours.
+    focus: Vec<Focus>,
     /// Scales points of the view plane at distance one to pixels, with y down.
     pixels: DVec2,
     /// The pixel that looks along the optical axis.
@@ -144,13 +171,23 @@ impl View {
         let pixels = DVec2::new(1.0, -1.0) / f64::from(camera.inverse_view_distance);
         let turn = DQuat::from_rotation_arc(DVec3::NEG_Z, plane.lens_axis());
         let radius = f64::from(camera.lens_radius);
+        let inverse_distance = f64::from(camera.inverse_focal_distance) - plane.slope.dot(shift);
+        let on_film = estimator.focused_camera().film_distance().recip();
+        // Light of another colour is bent by so much more: 1 / z + 1 / v grows by this share.
+        let of_more = |more: f64| Focus {
+            inverse_distance: (1.0 + more) * inverse_distance + more * on_film,
+            slope: (1.0 + more) * plane.slope,
+        };
+        let focus = match estimator.dispersion() {
+            0.0 => vec![of_more(0.0)],
+            dispersion => DISPERSION.map(|of| of_more(dispersion * f64::from(of))).to_vec(),
+        };
         Self {
             frame: estimator.camera.frame(),
             eye: estimator.camera.eye,
             lens: [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)]
                 .map(|(x, y)| turn * (radius * DVec3::new(x, y, 0.0))),
-            inverse_focal_distance: f64::from(camera.inverse_focal_distance) - plane.slope.dot(shift),
-            slope: plane.slope,
+            focus,
             pixels,
             film_centre: 0.5 * DVec2::new(width, height) - shift * pixels,
             margin: 0.5 * f64::from(camera.jitter).max(1.0),
@@ -172,8 +209,10 @@ impl View {
         let camera_from_world = self.frame.world_from_camera.transpose();
         for corner in corners.flat_map(|corner| times.iter().map(move |time| corner + *time * way)) {
             let at = camera_from_world * (corner - self.eye);
-            for lens_point in self.lens {
-                let Some(q) = self.film_point(at, lens_point) else {
+            let of_lens = || self.lens.into_iter();
+            for (focus, lens_point) in self.focus.iter().flat_map(|focus| of_lens().map(move |l| (focus, l)))
+            {
+                let Some(q) = focus.film_point(at, lens_point) else {
                     any_behind = true;
                     continue;
                 };
@@ -190,20 +229,6 @@ impl View {
         area
     }
 
-    /// The film point whose ray through a point `l` of the lens goes through the point `at`. `None` if there is none because
-    /// `at` does not lie before the lens.
-    ///
-    /// The ray runs along `(q, -1) - l s`, where `s` is `1 / z` at `q`, which is linear in `q`. So the condition that the ray
-    /// is parallel to `at - l` is linear in `q` too.
-    fn film_point(&self, at: DVec3, l: DVec3) -> Option<DVec2> {
-        let way = at - l;
-        let (depth, aside) = (-way.z, way.truncate());
-        let below = depth * (1.0 - self.slope.dot(l.truncate())) - l.z * self.slope.dot(aside);
-        let straight = 1.0 - self.slope.dot(l.truncate()) + l.z * self.inverse_focal_distance;
-        let focus = self.inverse_focal_distance * depth + self.slope.dot(aside);
-        (below > 0.0 && straight > 0.0).then(|| (straight * aside + focus * l.truncate()) / below)
-    }
-
     /// Whether rays through an area of the film can meet a plane. A ray's distance from the plane at its start, and the
     /// rate at which it approaches the plane, are linear in the point of the film, and in the point of the lens, that it
     /// passes. So it is enough to test the corners of the area and of a square around the lens.
@@ -217,13 +242,16 @@ impl View {
             return true;
         }
         let of_area = || area.into_iter().flat_map(|x| area.map(|y| DVec2::new(x.x, y.y)));
-        self.lens.iter().zip(heights()).any(|(l, height)| {
+        let meets = |focus: &Focus, l: DVec3, height: f64| {
             of_area().any(|at| {
                 let q = (at - self.film_centre) / self.pixels;
-                let direction = q.extend(-1.0) - *l * (self.inverse_focal_distance + self.slope.dot(q));
+                let direction = q.extend(-1.0) - l * (focus.inverse_distance + focus.slope.dot(q));
                 height * normal.dot(direction) >= 0.0
             })
-        })
+        };
+        self.focus
+            .iter()
+            .any(|focus| self.lens.iter().zip(heights()).any(|(l, height)| meets(focus, *l, height)))
     }
 }
 

@@ -61,7 +61,7 @@ pub struct Camera {
     pub jitter: f32,
     pub tilt: [f32; 2],
     pub inverse_focal_length: f32,
-    pub pad0: u32,
+    pub dispersion: f32,
 }
 
 /// `Lattice` of film.glsl: the pixels `origin + stride * i` inside `extent`.
@@ -210,11 +210,12 @@ pub fn film_constants(estimator: &Estimator) -> [(u32, u32); 2] {
 }
 
 /// The specialization constants of the passes that trace rays through the lens, without those of the scene.
-pub fn lens_constants(estimator: &Estimator) -> [(u32, u32); 5] {
+pub fn lens_constants(estimator: &Estimator) -> [(u32, u32); 6] {
     let [sampler, has_moments] = film_constants(estimator);
     let has_profile = estimator.aperture.profile_in_use(estimator.model) != 0.0;
     let profile = (constant::HAS_PROFILE, has_profile.into());
-    [sampler, has_moments, aperture_constant(estimator), movements_constant(estimator), profile]
+    let dispersion = (constant::HAS_DISPERSION, (estimator.dispersion() != 0.0).into());
+    [sampler, has_moments, aperture_constant(estimator), movements_constant(estimator), profile, dispersion]
 }
 
 /// `HAS_MOVEMENTS` of movements.glsl. A pinhole and a hole see the same from every tilt, and need no code for a shift.
@@ -281,7 +282,7 @@ impl Camera {
             jitter: estimator.jitter,
             tilt: plane.tilt.as_vec2().to_array(),
             inverse_focal_length: plane.inverse_focal_length as f32,
-            pad0: 0,
+            dispersion: estimator.dispersion() as f32,
         }
     }
 }

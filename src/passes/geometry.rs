@@ -20,7 +20,8 @@ impl Geometry {
     /// Compiles the pass from its shader, or from one with the same interface, for the constants of a scene.
     pub fn new(device: &Arc<Device>, shader: Shader, scene: &SceneBuffers) -> Result<Self> {
         // Nothing that is done to the lens changes the ray through its centre, except for a shift, which needs no code.
-        let constants = [scene.constants(), &[(constant::HAS_MOVEMENTS, 0)]].concat();
+        let constants =
+            [scene.constants(), &[(constant::HAS_MOVEMENTS, 0), (constant::HAS_DISPERSION, 0)]].concat();
         Ok(Self(ComputePipeline::new(device, shader, &constants)?))
     }
 

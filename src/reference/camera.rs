@@ -30,6 +30,8 @@ enum Optics {
         focal_length: f64,
         /// The axis of the lens, forwards.
         axis: DVec3,
+        /// By how much larger `1 / f` is for each of the three colours.
+        more: [f64; 3],
     },
     Pinhole,
     /// A hole with the film behind it.
@@ -64,7 +66,15 @@ impl Projection {
                 } else {
                     (at_infinity, (1.0 / (at_infinity * slant) + 1.0 / focused).recip())
                 };
-                (film_distance, Optics::Lens { radius: f64::from(lens.diameter) / 2.0, focal_length, axis })
+                (
+                    film_distance,
+                    Optics::Lens {
+                        radius: f64::from(lens.diameter) / 2.0,
+                        focal_length,
+                        axis,
+                        more: colors(lens.abbe_number),
+                    },
+                )
             }
             CameraModel::Pinhole => (at_infinity, Optics::Pinhole),
             CameraModel::Hole => {
@@ -110,19 +120,28 @@ impl Projection {
 
     /// The ray from the lens point `disk` (of the unit disk) through the point that the film position is an image of.
     /// Without a lens, the ray goes from the film position through the point `disk` of the hole, and starts there.
-    pub(super) fn primary_ray(&self, pixel: [u32; 2], offset: [f64; 2], disk: [f64; 2], time: f64) -> Ray {
+    ///
+    /// `color` is the number of the colour of the light: red, green or blue.
+    pub(super) fn primary_ray(
+        &self,
+        pixel: [u32; 2],
+        offset: [f64; 2],
+        disk: [f64; 2],
+        time: f64,
+        color: usize,
+    ) -> Ray {
         let [right, up] = self.on_film(pixel, offset);
         // From the film position to the centre of the lens. The image is upside down.
         let through_centre = right * self.u + up * self.v - self.film_distance * self.w;
         let (from_centre, direction) = match self.optics {
             Optics::Pinhole => (DVec3::ZERO, through_centre),
-            Optics::Lens { radius, focal_length, axis } => {
+            Optics::Lens { radius, focal_length, axis, more } => {
                 let turn = DQuat::from_rotation_arc(-self.w, axis);
                 let lens_point = radius * (disk[0] * (turn * self.u) + disk[1] * (turn * self.v));
                 // 1 / f = 1 / v + 1 / F, with distances along the axis. The point in focus lies on the line through the
                 // centre, as far as 1 / F says, which is negative if the lens makes the light from the film diverge.
                 let on_film = axis.dot(through_centre).recip();
-                let in_focus = focal_length.recip() - on_film;
+                let in_focus = (1.0 + more[color]) / focal_length - on_film;
                 (lens_point, on_film * through_centre - in_focus * lens_point)
             }
             Optics::Hole { radius, .. } => {
@@ -132,4 +151,17 @@ impl Projection {
         };
         Ray { origin: self.eye + from_centre, direction: direction.normalize(), time }
     }
+}
+
+/// By how much larger `1 / f` is for red, green and blue light than for green light. `1 / f` is proportional to `n - 1` of
+/// the glass, and by Cauchy's formula `n` is linear in one over the squared wavelength. Between the lines F and C of hydrogen,
+/// it changes by one over the Abbe number.
+fn colors(abbe_number: u32) -> [f64; 3] {
+    if abbe_number == 0 {
+        return [0.0; 3];
+    }
+    let index = |nanometres: f64| nanometres.powi(-2);
+    let of_abbe_number = index(486.1) - index(656.3);
+    let change = |nanometres: f64| (index(nanometres) - index(550.0)) / of_abbe_number;
+    [610.0, 550.0, 465.0].map(|nanometres| change(nanometres) / f64::from(abbe_number))
 }

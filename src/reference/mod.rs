@@ -19,10 +19,14 @@ mod surface;
 mod texture;
 pub mod tone;
 
+use crate::scene::CameraModel;
 use crate::settings::Estimator;
 use camera::Projection;
 use film::Film;
 use glam::DVec3;
+
+/// The colour for which a lens is in focus, by its number.
+const GREEN: usize = 1;
 
 /// A half-line from a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,14 +77,32 @@ impl<'a> Reference<'a> {
         } else {
             0.0
         };
-        let sample = self.trace(pixel, offset, point, time);
+        let has_colors = estimator.model == CameraModel::ThinLens && estimator.lens.abbe_number > 0;
+        let mut sample = self.trace(pixel, offset, point, time);
+        if has_colors {
+            // Each colour goes its own way.
+            let of = |color: usize| self.trace_color(pixel, offset, point, time, color).radiance[color];
+            sample.radiance = DVec3::new(of(0), of(1), of(2));
+        }
         Sample { radiance: share * sample.radiance, ..sample }
     }
 
     /// The sample of the film position at `offset` pixels from this pixel's centre and of the point `disk` of the
     /// lens, whose radius is one. `time` is in seconds from the middle of the exposure.
     pub fn trace(&self, pixel: [u32; 2], offset: [f64; 2], disk: [f64; 2], time: f64) -> Sample {
-        let ray = self.projection.primary_ray(pixel, offset, disk, time);
+        self.trace_color(pixel, offset, disk, time, GREEN)
+    }
+
+    /// The same for light of a colour, by its number.
+    fn trace_color(
+        &self,
+        pixel: [u32; 2],
+        offset: [f64; 2],
+        disk: [f64; 2],
+        time: f64,
+        color: usize,
+    ) -> Sample {
+        let ray = self.projection.primary_ray(pixel, offset, disk, time, color);
         let scene = &*self.estimator.scene;
         let radiance = integrator::whitted::radiance(scene, ray, self.estimator.max_bounces);
         Sample { ray, offset, radiance }

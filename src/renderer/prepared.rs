@@ -48,7 +48,7 @@ pub struct Keys {
     /// The image of the aperture, if it has one.
     aperture: Option<ApertureImage>,
     /// The constants of the passes that trace rays, besides those of the scene.
-    lens: [(u32, u32); 5],
+    lens: [(u32, u32); 6],
     /// The constants of the passes that work on the film alone.
     film: [(u32, u32); 2],
     is_adaptive: bool,
@@ -160,7 +160,9 @@ impl Preparer {
 
     /// The largest batch whose loops stay within the limit of the device in one invocation of the trace pass.
     pub(super) fn largest_batch(&self, scene: &SceneBuffers, estimator: &Estimator) -> Result<u32> {
-        let steps = scene.max_loop_steps(estimator.max_bounces);
+        // With colour errors, a sample has three rays.
+        let rays = if estimator.dispersion() == 0.0 { 1 } else { 3 };
+        let steps = rays * scene.max_loop_steps(estimator.max_bounces);
         let Some(most) = self.device.traits().max_loop_steps else {
             return Ok(MAX_BATCH);
         };

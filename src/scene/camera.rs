@@ -57,12 +57,15 @@ pub struct Lens {
     /// The direction to which the axis is turned, anticlockwise as seen from behind the camera. At 0 it is turned down, at
     /// 90 to the right.
     pub tilt_direction_degrees: f32,
+    /// The Abbe number of the glass: the lens bends blue light (F, 486.1 nm) more strongly than red light (C, 656.3 nm), by
+    /// one over this number of its power. 0 is a lens without colour errors.
+    pub abbe_number: u32,
 }
 
 impl Lens {
     /// A lens that is not tilted.
     pub const fn new(diameter: f32, focal_distance: f32) -> Self {
-        Self { diameter, focal_distance, tilt_degrees: 0.0, tilt_direction_degrees: 0.0 }
+        Self { diameter, focal_distance, tilt_degrees: 0.0, tilt_direction_degrees: 0.0, abbe_number: 0 }
     }
 }
 

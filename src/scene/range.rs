@@ -23,6 +23,8 @@ pub const FOCAL_DISTANCES: [f32; 2] = [MIN_LENGTH, MAX_LENGTH];
 pub const SHIFTS_MM: [f32; 2] = [-1000.0, 1000.0];
 /// The angle by which a lens is tilted, in degrees.
 pub const TILTS: [f32; 2] = [-45.0, 45.0];
+/// The Abbe number of a lens.
+pub const ABBE_NUMBERS: [u32; 2] = [1, 100];
 /// The number of blades of an iris.
 pub const BLADES: [u32; 2] = [3, 16];
 /// The angle by which an iris or the direction of a tilt is turned, in degrees.

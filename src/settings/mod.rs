@@ -150,6 +150,12 @@ impl Estimator {
         }
     }
 
+    /// One over the Abbe number of the glass, or 0 for a lens without colour errors and where there is no lens.
+    pub fn dispersion(&self) -> f64 {
+        let has_errors = self.model == CameraModel::ThinLens && self.lens.abbe_number > 0;
+        if has_errors { f64::from(self.lens.abbe_number).recip() } else { 0.0 }
+    }
+
     /// Where the lens is in focus.
     pub fn focal_plane(&self) -> FocalPlane {
         self.focused_camera().focal_plane(&self.lens_in_use())
@@ -272,7 +278,7 @@ impl Settings {
                 camera.lens_for_range(depth_at(from)?, depth_at(to)?, self.tolerance_pixels(), *height)
             }
         };
-        *lens = chosen.map_err(Error::NoLens)?;
+        *lens = Lens { abbe_number: lens.abbe_number, ..chosen.map_err(Error::NoLens)? };
         *model = CameraModel::ThinLens;
         Ok(settings)
     }

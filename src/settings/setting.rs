@@ -126,6 +126,7 @@ pub enum Part {
     Lens,
     Aperture,
     Movements,
+    Colors,
     Viewpoint,
     Light,
     Sampling,

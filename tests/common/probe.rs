@@ -52,7 +52,12 @@ pub fn probe_as<In: Pod, Out: Pod>(
         Some(scene) => (scene.bindings(), scene.constants().to_vec()),
         None => (Vec::new(), Vec::new()),
     };
-    constants.extend([sampler, (constant::HAS_MOVEMENTS, 0), (constant::HAS_PROFILE, 0)]);
+    constants.extend([
+        sampler,
+        (constant::HAS_MOVEMENTS, 0),
+        (constant::HAS_PROFILE, 0),
+        (constant::HAS_DISPERSION, 0),
+    ]);
     bindings.push((binding::PROBE_INPUTS, Binding::Buffer(input)));
     bindings.push((binding::PROBE_OUTPUTS, Binding::Buffer(Arc::clone(&output))));
     // Few of the functions need sample values.

@@ -32,7 +32,7 @@ void main() {
     if (i < inputs.length()) {
         In given = inputs[i];
         vec2 q = view_plane_point(push.camera, push.extent, given.pixel, given.offset);
-        Ray ray = primary_ray(push.camera, q, given.disk);
+        Ray ray = primary_ray(push.camera, q, given.disk, GREEN);
         outputs[i] = Out(ray.origin, ray.direction);
     }
 }

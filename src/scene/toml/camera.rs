@@ -3,9 +3,10 @@
 use super::error::{ParseError, named};
 use super::number::{Positive, Vector, ranged};
 use crate::scene::{
-    ANAMORPHICS, Aperture, ApertureImage, BLADES, CATS_EYES, Camera, CameraModel, DEFAULT_SHUTTER, DIAMETERS,
-    F_NUMBERS, FOCAL_DISTANCES, FOCAL_LENGTHS_MM, Hole, ISOS, Lens, METRES_PER_UNIT, PRESETS, PROFILES, ROTATIONS,
-    ROUNDNESSES, SHIFTS_MM, SHUTTERS, Sensor, TILTS, VFOV_DEGREES, View, in_range, in_range_or_zero,
+    ABBE_NUMBERS, ANAMORPHICS, Aperture, ApertureImage, BLADES, CATS_EYES, Camera, CameraModel,
+    DEFAULT_SHUTTER, DIAMETERS, F_NUMBERS, FOCAL_DISTANCES, FOCAL_LENGTHS_MM, Hole, ISOS, Lens,
+    METRES_PER_UNIT, PRESETS, PROFILES, ROTATIONS, ROUNDNESSES, SHIFTS_MM, SHUTTERS, Sensor, TILTS,
+    VFOV_DEGREES, View, in_range, in_range_or_zero,
 };
 use glam::DVec3;
 use serde::Deserialize;
@@ -29,6 +30,7 @@ pub(super) struct CameraTable {
     lens_rise: Option<Spanned<f32>>,
     lens_tilt_degrees: Option<Spanned<f32>>,
     tilt_direction_degrees: Option<Spanned<f32>>,
+    abbe_number: Option<Spanned<u32>>,
     view_distance: Option<Positive>,
     pixel_size: Option<Positive>,
     metres_per_unit: Option<Spanned<f64>>,
@@ -106,6 +108,11 @@ impl Shot {
         lens.tilt_degrees =
             ranged("lens_tilt_degrees", table.lens_tilt_degrees.as_ref(), TILTS)?.unwrap_or(0.0);
         let direction = table.tilt_direction_degrees.as_ref();
+        if let Some(number) = &table.abbe_number {
+            lens.abbe_number = *number.get_ref();
+            in_range_or_zero(lens.abbe_number, ABBE_NUMBERS, "a lens without colour errors")
+                .map_err(|wrong| ParseError::at(number, &format!("abbe_number {wrong}")))?;
+        }
         lens.tilt_direction_degrees = ranged("tilt_direction_degrees", direction, ROTATIONS)?.unwrap_or(0.0);
         ranged("vfov_degrees", table.vfov_degrees.as_ref(), VFOV_DEGREES)?;
         ranged("focal_length", table.focal_length.as_ref(), FOCAL_LENGTHS_MM)?;

@@ -2,7 +2,8 @@
 
 use super::{EVEN, LOGARITHMIC, by_name, camera, field, row};
 use crate::scene::{
-    CameraModel, DIAMETERS, F_NUMBERS, FOCAL_DISTANCES, MAX_LENGTH, MIN_LENGTH, ROTATIONS, SHIFTS_MM, TILTS,
+    ABBE_NUMBERS, CameraModel, DIAMETERS, F_NUMBERS, FOCAL_DISTANCES, MAX_LENGTH, MIN_LENGTH, ROTATIONS,
+    SHIFTS_MM, TILTS,
 };
 use crate::settings::{
     Access, Choice, Field, Key, Part, Role, Row, Setting, Settings, Slider, Unit, Widget, name_of, named,
@@ -229,6 +230,29 @@ pub(super) static LENS: &[Setting] = &[
             help: "The direction to which the lens is tilted, anticlockwise as seen from behind the camera: 0 is down, 90 to the right, which photographers call swing.",
             shown: |settings| has_lens(settings) && settings.estimator.lens.tilt_degrees != 0.0,
             widget: Widget::Slider(Slider { range: |_| [-180.0, 180.0], decimals: Some(0), ..EVEN }),
+        }),
+    },
+    Setting {
+        flag: "abbe-number",
+        letter: None,
+        value_name: "V",
+        help: "The Abbe number of the lens, 1 to 100, or 0 for a lens without colour errors. The smaller it is, the farther \
+               apart are the focal planes of red, green and blue light: 60 is crown glass, 30 is flint glass. It takes \
+               three times as many rays",
+        default: "the scene's, or 0",
+        role: Role::Estimator,
+        key: camera("abbe_number"),
+        access: Access::WholeOrZero(
+            field!(estimator.lens.abbe_number),
+            ABBE_NUMBERS,
+            "a lens without colour errors",
+        ),
+        row: Some(Row {
+            part: Part::Colors,
+            label: "Abbe number",
+            help: "The smaller the Abbe number of the glass, the farther apart are the focal planes of red, green and blue light. Crown glass has 60, flint glass 30. 0 is a lens without colour errors.",
+            shown: has_lens,
+            widget: Widget::Slider(Slider { range: |_| [0.0, ABBE_NUMBERS[1] as f32], ..EVEN }),
         }),
     },
     Setting {
