@@ -3,7 +3,8 @@
 
 use super::area::Area;
 use super::guide::Guide;
-use super::panel::{Panel, Pin};
+use super::optics::Pin;
+use super::panel::Panel;
 use super::words::{self, length};
 use super::{navigate, telemetry};
 use crate::diagram::Diagram;

@@ -1,7 +1,7 @@
 //! A thread for slow work: it makes the renderer, reads files, builds trees, uploads them and compiles passes, while the
 //! window continues with what it has.
 
-use super::panel::Content;
+use super::content::Content;
 use crate::error::Result;
 use crate::renderer::{Keys, Prepared, Preparer, Renderer};
 use crate::settings::Settings;

@@ -2,6 +2,7 @@
 
 mod area;
 mod clipboard;
+mod content;
 mod display;
 mod focus;
 mod graphics;
@@ -13,6 +14,7 @@ mod loader;
 mod memory;
 mod message;
 mod navigate;
+mod optics;
 mod panel;
 mod render_job;
 mod save_as;

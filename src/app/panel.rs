@@ -2,20 +2,20 @@
 
 use super::Options;
 use super::area::Area;
+use super::content::Content;
 use super::guide::Guide;
 use super::lesson::{Lesson, Seen};
 use super::memory::Memory;
 use super::message::{Kind, Messages, Offer};
+use super::optics::{Optics, STRIP};
 use super::render_job::RenderJob;
 use super::save_as::{self, Files, SaveAs, absolute};
 use super::typing::Typing;
 use super::zoom_lock::ZoomLock;
-use crate::diagram::{Part, Scale, View};
-use crate::error::{Error, Result};
-use crate::output::{self, Origin, PictureFormat};
-use crate::scene::{self, Aperture, ApertureImage, BUILTINS, Builtin, Depths, Extents, SceneRef};
+use crate::error::Error;
+use crate::output::{self, PictureFormat};
+use crate::scene::{Aperture, ApertureImage, BUILTINS, Builtin, Depths, Extents, SceneRef};
 use crate::settings::{Called, Settings};
-use glam::DVec2;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -27,8 +27,7 @@ const WIDTH: f32 = 320.0;
 const MIN_WIDTH: f32 = 240.0;
 /// The panel takes at most this share of the window.
 const MAX_SHARE: f32 = 0.8;
-/// The height of the strip below the picture unless the user has changed it, and the lowest one, in points.
-const STRIP: f32 = 320.0;
+/// The lowest height of the strip below the picture, in points.
 const MIN_STRIP: f32 = 160.0;
 /// The strip takes at most this share of the window.
 const MAX_STRIP_SHARE: f32 = 0.65;
@@ -87,61 +86,6 @@ pub(super) struct Panel {
     extents: (SceneRef, Extents),
     /// Where the controls were drawn last, to notice when they move.
     pub(super) layout: Layout,
-}
-
-/// The state of the strip below the picture that draws the optics.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Optics {
-    pub(super) open: bool,
-    /// The number of rays in each fan, and of samples.
-    pub(super) rays: u32,
-    pub(super) view: View,
-    /// Whether the section has the same scale everywhere.
-    pub(super) to_scale: bool,
-    pub(super) pin: Pin,
-    /// The part of the drawing that is being moved.
-    pub(super) held: Option<HeldPart>,
-    /// The height of the strip below the picture in points, as the user has set it.
-    pub(super) height: f32,
-}
-
-/// The place in the picture whose optics are drawn.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Pin {
-    /// As a fraction of the picture's size.
-    pub(super) share: [f32; 2],
-    /// The depth of the point whose light is drawn, if it was moved. Otherwise the picture shows it there.
-    pub(super) depth: Option<f64>,
-}
-
-/// A part of the drawing that is being moved.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct HeldPart {
-    pub(super) part: Part,
-    /// The scale that the drawing had when the part was grasped.
-    pub(super) scale: Scale,
-    /// How far from the part it was grasped, in points.
-    pub(super) beside: [f32; 2],
-    /// The diameter of the opening divided by its half extent in the drawing, when it was grasped.
-    pub(super) diameter_per_half: f64,
-    /// The slopes of the centre ray to the right and upwards.
-    pub(super) slope: DVec2,
-    /// The focal length in mm divided by the distance of the film, when it was grasped.
-    pub(super) mm_per_distance: f64,
-}
-
-impl Default for Optics {
-    fn default() -> Self {
-        Self {
-            open: false,
-            rays: 9,
-            view: View::Side,
-            to_scale: false,
-            pin: Pin { share: [0.5; 2], depth: None },
-            held: None,
-            height: STRIP,
-        }
-    }
 }
 
 /// A picture that is held for comparison.
@@ -498,36 +442,5 @@ impl Panel {
         self.remember(&file);
         self.files.scene.suggest_next();
         self.messages.say(format!("saved {}", file.display()));
-    }
-}
-
-/// The content of a file that was opened.
-pub(super) enum Content {
-    Scene(SceneRef),
-    /// The settings of a picture.
-    Picture(Box<Settings>),
-}
-
-impl Content {
-    /// Reads a scene, a mesh, or the settings of a picture.
-    pub(super) fn read(name: &Path) -> Result<Self> {
-        match PictureFormat::of(name) {
-            Some(_) => Origin::read(name)
-                .and_then(|origin| Settings::of_arguments(&origin.arguments))
-                .map(|settings| Self::Picture(Box::new(settings))),
-            None => scene::load(name).map(|scene| Self::Scene(SceneRef::new(scene))),
-        }
-    }
-
-    /// The settings that result when this replaces what is shown now.
-    pub(super) fn settings(&self, now: &Settings) -> Settings {
-        match self {
-            Self::Scene(scene) => now.with_scene(scene.clone()),
-            Self::Picture(settings) => {
-                let mut settings = Settings::clone(settings);
-                settings.estimator.size = now.estimator.size;
-                settings
-            }
-        }
     }
 }

@@ -1,7 +1,7 @@
 //! Moves the parts of the drawing of the optics by hand.
 
 use super::widgets::Layout;
-use crate::app::panel::{HeldPart, Optics};
+use crate::app::optics::{HeldPart, Optics};
 use crate::diagram::{Diagram, Drawing, Part, View};
 use crate::scene::{CameraModel, DIAMETERS, FOCAL_DISTANCES, FOCAL_LENGTHS_MM, MAX_LENGTH, MIN_LENGTH};
 use crate::settings::Estimator;

@@ -5,7 +5,7 @@ use super::drawing::paint;
 use super::grasp::note_handles;
 use super::widgets::{Layout, Side, edge, note_item, note_window, tooltip};
 use crate::app::area::Area;
-use crate::app::panel::Optics;
+use crate::app::optics::Optics;
 use crate::app::save_as::{absolute, unused_name};
 use crate::diagram::{self, Diagram, Look, VIEWS};
 use crate::error::Result;
