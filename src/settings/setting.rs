@@ -126,7 +126,6 @@ pub enum Part {
     Lens,
     Aperture,
     Movements,
-    Colors,
     Viewpoint,
     Light,
     Sampling,

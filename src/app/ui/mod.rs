@@ -273,8 +273,9 @@ impl Panel {
                 action = Some(Action::ResetCamera);
             }
         });
-        section(ui, "Shift and tilt", false, folds, layout, |layout| self.rows(ui, Part::Movements, layout));
-        section(ui, "Colour errors", false, folds, layout, |layout| self.rows(ui, Part::Colors, layout));
+        section(ui, "Shift, tilt, colour errors", false, folds, layout, |layout| {
+            self.rows(ui, Part::Movements, layout);
+        });
         section(ui, "Light", false, folds, layout, |layout| self.light(ui, layout));
         section(ui, "Sampling", false, folds, layout, |layout| self.rows(ui, Part::Sampling, layout));
         section(ui, "View", false, folds, layout, |layout| self.rows(ui, Part::View, layout));

@@ -248,7 +248,7 @@ pub(super) static LENS: &[Setting] = &[
             "a lens without colour errors",
         ),
         row: Some(Row {
-            part: Part::Colors,
+            part: Part::Movements,
             label: "Abbe number",
             help: "The smaller the Abbe number of the glass, the farther apart are the focal planes of red, green and blue light. Crown glass has 60, flint glass 30. 0 is a lens without colour errors.",
             shown: has_lens,
