@@ -5,7 +5,7 @@ mod common;
 use anyhow::{Result, ensure};
 use bytemuck::{Pod, Zeroable};
 use common::probe::probe;
-use common::{Gpu, prove, settings_of};
+use common::{Gpu, prove, settings_of, slanted_frame};
 use glam::{DVec2, DVec3, Vec3};
 use thinlens::gpu_types::Camera;
 use thinlens::scene::{CameraModel, FORMATS, Hole, Overlay, PRESETS, Preset, SceneRef, Sensor, Tolerance};
@@ -59,15 +59,6 @@ fn slanted(size: [u32; 2], vfov_degrees: f64, diameter: f64, focal_distance: f64
     settings_of(&toml, size, 1).estimator
 }
 
-/// The camera frame of [`slanted`], by the book, not by the program: right, up, backwards.
-fn frame() -> (DVec3, [DVec3; 3]) {
-    let (eye, look_at, up) =
-        (DVec3::new(3.0, 4.0, 12.0), DVec3::new(-2.0, 1.0, -9.0), DVec3::new(0.2, 1.0, 0.0));
-    let w = (eye - look_at).normalize();
-    let u = up.cross(w).normalize();
-    (eye, [u, w.cross(u), w])
-}
-
 /// Pixels at corners, edges, centre and between, with offsets to their edges.
 fn film_positions([width, height]: [u32; 2]) -> Vec<([u32; 2], [f32; 2])> {
     let along = |extent: u32| [0, extent / 5, extent / 2, extent - 1];
@@ -95,7 +86,7 @@ fn places(size: [u32; 2]) -> Vec<Place> {
 /// Where a point appears on the film, in pixels from its upper left corner: straight through the
 /// lens centre. Written from figure 3.18 and section 10.2 of the book.
 fn project(point: DVec3, [width, height]: [u32; 2], vfov_degrees: f64) -> DVec2 {
-    let (eye, [u, v, w]) = frame();
+    let (eye, [u, v, w]) = slanted_frame();
     let relative = point - eye;
     let depth = -w.dot(relative);
     let k = f64::from(height) / 2.0 / (vfov_degrees.to_radians() / 2.0).tan();
@@ -112,7 +103,7 @@ fn project(point: DVec3, [width, height]: [u32; 2], vfov_degrees: f64) -> DVec2 
 #[test]
 fn primary_rays_go_from_the_lens_to_the_point_in_focus() {
     let check = |gpu: &Gpu| -> Result<String> {
-        let (eye, [u, v, w]) = frame();
+        let (eye, [u, v, w]) = slanted_frame();
         let (mut rays, mut worst_focus, mut worst_pixel, mut worst_start) = (0, 0.0_f64, 0.0_f64, 0.0_f64);
         let mut nearest_sphere = f64::INFINITY;
         for (size, vfov, diameter, focal_distance) in [
@@ -172,7 +163,7 @@ fn primary_rays_go_from_the_lens_to_the_point_in_focus() {
 #[test]
 fn the_field_of_view_reaches_every_edge_and_corner() {
     let check = |gpu: &Gpu| -> Result<String> {
-        let (_, [u, v, w]) = frame();
+        let (_, [u, v, w]) = slanted_frame();
         let (mut count, mut worst) = (0, 0.0_f64);
         for size in [[64, 48], [48, 64], [1920, 1080], [7, 7]] {
             for vfov in [10.0, 45.0, 90.0, 150.0] {
@@ -230,7 +221,7 @@ fn a_pinhole_has_one_ray_for_a_film_position() {
                 .collect::<Vec<_>>()
         });
         ensure!(bits[0] == bits[1] && bits[0] == bits[2], "the focal distance changes the pinhole's rays");
-        let eye = frame().0.as_vec3().to_array();
+        let eye = slanted_frame().0.as_vec3().to_array();
         ensure!(rays[0].iter().all(|ray| ray.origin == eye), "a ray that starts beside the eye");
         Ok(format!("{} rays, the same bits at three focal distances", places.len()))
     };
@@ -243,7 +234,7 @@ fn a_pinhole_has_one_ray_for_a_film_position() {
 #[test]
 fn rays_of_a_hole_come_from_the_film() {
     let check = |gpu: &Gpu| -> Result<String> {
-        let (eye, [u, v, w]) = frame();
+        let (eye, [u, v, w]) = slanted_frame();
         let (mut rays, mut worst) = (0, 0.0_f64);
         for (size, vfov, metres_per_unit, upright) in [
             ([33, 21], 65.0, 0.1, false),

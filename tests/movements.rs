@@ -4,7 +4,7 @@ mod common;
 
 use anyhow::{Result, ensure};
 use common::scenes::EVERYTHING;
-use common::{Gpu, film, pixels, prove, render, run, settings_of};
+use common::{Gpu, film, pixels, prove, render, run, settings_of, slanted_frame};
 use glam::DVec3;
 use thinlens::reference::Reference;
 use thinlens::renderer::Question;
@@ -24,15 +24,6 @@ fn tilted(degrees: f32, direction: f32, [shift, rise]: [f32; 2], breathes: bool)
     settings
 }
 
-/// The camera frame of [`tilted`], by the book, not by the program: right, up, backwards.
-fn frame() -> (DVec3, [DVec3; 3]) {
-    let (eye, look_at, up) =
-        (DVec3::new(3.0, 4.0, 12.0), DVec3::new(-2.0, 1.0, -9.0), DVec3::new(0.2, 1.0, 0.0));
-    let w = (eye - look_at).normalize();
-    let u = up.cross(w).normalize();
-    (eye, [u, w.cross(u), w])
-}
-
 /// Catches a plane of sharp focus that is not tilted, or tilted as much as the lens is, or the other way, or about another
 /// line; a lens that is not turned with its axis; and a focal length that is not that of the lens. By the hinge rule (H.
 /// Merklinger, *Focusing the View Camera*): the plane goes through the point at the focal distance on the optical axis, and
@@ -41,7 +32,7 @@ fn frame() -> (DVec3, [DVec3; 3]) {
 #[test]
 fn a_tilted_lens_is_sharp_in_the_plane_through_the_hinge_line() {
     let check = |gpu: &Gpu| -> Result<String> {
-        let (eye, [u, v, w]) = frame();
+        let (eye, [u, v, w]) = slanted_frame();
         let (mut rays, mut worst, mut worst_oracle, mut off_plane) = (0, 0.0_f64, 0.0_f64, 0.0_f64);
         for (degrees, direction, shift, breathes) in [
             (8.0, 0.0, [0.0, 0.0], false),
@@ -261,7 +252,7 @@ fn the_circle_of_a_tilted_lens_is_as_wide_as_is_said() {
     for breathes in [false, true] {
         let settings = tilted(15.0, 0.0, [0.0, 0.0], breathes);
         let Estimator { camera, lens, size, .. } = &settings.estimator;
-        let (eye, [u, v, w]) = frame();
+        let (eye, [u, v, w]) = slanted_frame();
         let reference = Reference::new(&settings.estimator);
         let k = view_distance(&settings.estimator);
         for (right, up, depth) in [(0.0, 0.0, 9.0), (0.0, 0.15, 30.0), (0.0, -0.2, 12.0)] {

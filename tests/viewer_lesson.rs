@@ -7,15 +7,21 @@ use common::viewer::Viewer;
 const SIZE: [u16; 2] = [900, 1000];
 const ARGUMENTS: [&str; 5] = ["--size", "900x1000", "--validation", "-n", "4"];
 
-/// Catches a greeting that stays, or comes again; a step of the lesson that counts as done before it is, or does not
-/// notice that it was done; and a lesson that does not end.
-#[test]
-fn the_lesson_notices_what_was_done() {
+/// The viewer of a user who has never started it, and the folder of its memory.
+fn first_start() -> (tempfile::TempDir, Viewer) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     std::fs::create_dir(folder.path().join("thinlens")).expect("a folder");
     std::fs::write(folder.path().join("thinlens/viewer.json"), "{}").expect("a memory");
     let viewer = Viewer::start_in(folder.path(), SIZE, &ARGUMENTS);
     viewer.wait_until_done();
+    (folder, viewer)
+}
+
+/// Catches a greeting that stays, or comes again; a step of the lesson that counts as done before it is, or does not
+/// notice that it was done; and a lesson that does not end.
+#[test]
+fn the_lesson_notices_what_was_done() {
+    let (folder, viewer) = first_start();
     let shows = |viewer: &Viewer, control: &str| viewer.controls.borrow().contains_key(control);
     viewer.click("Start the lesson", |viewer| shows(viewer, "Skip step"));
     let step = |name: &str, on: &str, act: &dyn Fn()| {
@@ -64,11 +70,7 @@ fn the_lesson_notices_what_was_done() {
 /// Catches a greeting that goes only by its button, and one that stays on the picture.
 #[test]
 fn the_greeting_goes_when_the_hand_moves() {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    std::fs::create_dir(folder.path().join("thinlens")).expect("a folder");
-    std::fs::write(folder.path().join("thinlens/viewer.json"), "{}").expect("a memory");
-    let viewer = Viewer::start_in(folder.path(), SIZE, &ARGUMENTS);
-    viewer.wait_until_done();
+    let (_folder, viewer) = first_start();
     assert!(viewer.controls.borrow().contains_key("Start the lesson"), "no greeting");
     viewer.point(Viewer::in_window([450, 500]));
     viewer.hands("click 3", 0);

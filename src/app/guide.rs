@@ -2,7 +2,6 @@
 
 use super::area::Area;
 use super::words::length;
-use crate::scene::{CameraModel, Lens};
 use crate::settings::Settings;
 use imgui::{Condition, Key, Ui, WindowFlags};
 
@@ -49,27 +48,19 @@ impl Guide {
         depth: f64,
         settings: &mut Settings,
     ) -> (Option<Self>, Option<Result<String, String>>) {
-        let tolerance = settings.tolerance_pixels();
-        let estimator = &mut settings.estimator;
-        let height = estimator.size[1];
-        let lens = match self {
+        let set = match self {
             Self::Focus => return (None, None),
             Self::Blur { sharp: None, pixels } => {
                 return (Some(Self::Blur { sharp: Some(depth), pixels }), None);
             }
             Self::Range { first: None } => return (Some(Self::Range { first: Some(depth) }), None),
-            Self::Blur { sharp: Some(sharp), pixels } => {
-                estimator.camera.lens_for_blur(sharp, depth, pixels.into(), height)
-            }
-            Self::Range { first: Some(first) } => {
-                estimator.camera.lens_for_range(first, depth, tolerance, height)
-            }
+            Self::Blur { sharp: Some(sharp), pixels } => settings.blur_by_lens(sharp, depth, pixels),
+            Self::Range { first: Some(first) } => settings.sharpen_by_lens(first, depth),
         };
-        let said = match lens {
-            Ok(lens) => {
-                estimator.lens = Lens { abbe_number: estimator.lens.abbe_number, ..lens };
-                estimator.model = CameraModel::ThinLens;
-                let distance = length(lens.focal_distance.into());
+        let estimator = &settings.estimator;
+        let said = match set {
+            Ok(()) => {
+                let distance = length(estimator.lens.focal_distance.into());
                 Ok(format!("The lens is now f/{:.2}, focused at {distance}.", estimator.f_number()))
             }
             Err(reason) => Err(format!("No lens does this: {reason}.")),

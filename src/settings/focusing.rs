@@ -48,21 +48,46 @@ impl Settings {
         mut depth_at: impl FnMut(Place) -> Result<f64>,
     ) -> Result<Self> {
         let mut settings = self.clone();
-        let Estimator { camera, lens, model, size: [_, height], .. } = &mut settings.estimator;
-        let chosen = match focusing {
+        let set = match focusing {
             Focusing::On(place) => {
-                lens.focal_distance = depth_at(place)? as f32;
+                settings.estimator.lens.focal_distance = depth_at(place)? as f32;
                 return Ok(settings);
             }
             Focusing::Blur { sharp, blurred, pixels } => {
-                camera.lens_for_blur(depth_at(sharp)?, depth_at(blurred)?, pixels.into(), *height)
+                settings.blur_by_lens(depth_at(sharp)?, depth_at(blurred)?, pixels)
             }
-            Focusing::Range { from, to } => {
-                camera.lens_for_range(depth_at(from)?, depth_at(to)?, self.tolerance_pixels(), *height)
-            }
+            Focusing::Range { from, to } => settings.sharpen_by_lens(depth_at(from)?, depth_at(to)?),
         };
-        *lens = Lens { abbe_number: lens.abbe_number, ..chosen.map_err(Error::NoLens)? };
-        *model = CameraModel::ThinLens;
+        set.map_err(Error::NoLens)?;
         Ok(settings)
+    }
+
+    /// Chooses the lens that is focused at the depth `sharp` and blurs the depth `blurred` over so many pixels.
+    ///
+    /// # Errors
+    /// The reason why no lens does this. Then nothing changes.
+    pub fn blur_by_lens(&mut self, sharp: f64, blurred: f64, pixels: f32) -> Result<(), String> {
+        let Estimator { camera, size: [_, height], .. } = &self.estimator;
+        let lens = camera.lens_for_blur(sharp, blurred, pixels.into(), *height)?;
+        self.use_lens(lens);
+        Ok(())
+    }
+
+    /// Chooses the lens with which everything between two depths is blurred over no more than the tolerance.
+    ///
+    /// # Errors
+    /// The reason why no lens does this. Then nothing changes.
+    pub fn sharpen_by_lens(&mut self, from: f64, to: f64) -> Result<(), String> {
+        let Estimator { camera, size: [_, height], .. } = &self.estimator;
+        let lens = camera.lens_for_range(from, to, self.tolerance_pixels(), *height)?;
+        self.use_lens(lens);
+        Ok(())
+    }
+
+    /// Gives the lens this diameter and focus. Its glass stays.
+    fn use_lens(&mut self, lens: Lens) {
+        let estimator = &mut self.estimator;
+        estimator.lens = Lens { abbe_number: estimator.lens.abbe_number, ..lens };
+        estimator.model = CameraModel::ThinLens;
     }
 }

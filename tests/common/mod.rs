@@ -7,6 +7,7 @@ pub mod scenes;
 pub mod statistics;
 pub mod viewer;
 
+use glam::DVec3;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output};
@@ -165,6 +166,15 @@ pub fn settings_of(toml: &str, size: [u32; 2], samples: u32) -> Settings {
     let mut settings = Settings::of_scene(scene_of(toml));
     (settings.estimator.size, settings.samples) = (size, samples);
     settings
+}
+
+/// The place of the slanted cameras of the tests and its frame, by the book, not by the program: right, up, backwards.
+pub fn slanted_frame() -> (DVec3, [DVec3; 3]) {
+    let (eye, look_at, up) =
+        (DVec3::new(3.0, 4.0, 12.0), DVec3::new(-2.0, 1.0, -9.0), DVec3::new(0.2, 1.0, 0.0));
+    let w = (eye - look_at).normalize();
+    let u = up.cross(w).normalize();
+    (eye, [u, w.cross(u), w])
 }
 
 /// The pixels of a picture, row by row from the top left.

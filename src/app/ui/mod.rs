@@ -207,8 +207,9 @@ impl Panel {
         ui.same_line();
         let help = "Draws what the lens does with the light of one pixel (O). Click the picture to choose the pixel.";
         let is_open = self.optics.open.then(|| pressed(ui));
-        let clicked = button(ui, "Optics", help, layout);
-        self.optics.open ^= clicked;
+        if button(ui, "Optics", help, layout) {
+            action = Some(Action::Optics);
+        }
         drop(is_open);
         for (name, asks, help) in [
             ("Undo", Action::Undo, "Undoes the last change (Ctrl+Z)."),
