@@ -51,6 +51,7 @@ fn run(command: Command) -> Result<()> {
             size: args.drawing_size,
             rays: args.rays,
             view: args.view,
+            kept: args.also_at,
             to_scale: args.to_scale,
             output: args.output,
             device: args.device.choice(),

@@ -7,7 +7,7 @@ use common::{Gpu, prove, scene_of, small};
 use glam::DVec3;
 use std::collections::BTreeSet;
 use thinlens::diagram::{
-    self, Diagram, Drawing, LETTERS, Line, Look, Outline, Point, Role, Shape, VIEWS, View,
+    self, Diagram, Drawing, KEPT, LETTERS, Line, Look, Outline, Point, Role, Shape, Side, VIEWS, View,
 };
 use thinlens::renderer::Question;
 use thinlens::scene::{Aperture, CameraModel, Hole};
@@ -140,8 +140,14 @@ fn light_spreads_on_the_film_over_the_circle_of_confusion() {
     assert!(diagram.half_aperture == [0.0; 2] && diagram.image.blur < 1e-12, "a pinhole blurs nothing");
 }
 
-const LOOK: Look =
-    Look { size: [1100.0, 420.0], view: View::Side, to_scale: false, sharp: Some([8.0, 12.0]), scale: None };
+const LOOK: Look = Look {
+    size: [1100.0, 420.0],
+    view: View::Side,
+    to_scale: false,
+    sharp: Some([8.0, 12.0]),
+    kept: [None; KEPT],
+    scale: None,
+};
 
 fn shapes(drawing: &Drawing) -> impl Iterator<Item = &Shape> {
     drawing.panes.iter().flat_map(|pane| &pane.shapes)
@@ -578,13 +584,15 @@ fn boxes(drawing: &Drawing) -> Vec<(&str, [f32; 4])> {
 fn no_text_covers_another() {
     let gpu = Gpu::new();
     let mut settings = small("version-4");
-    for (model, focal_distance, position) in [
-        (CameraModel::ThinLens, 10.6, [32.5, 24.5]),
-        (CameraModel::ThinLens, 10.6, [20.5, 38.5]),
-        (CameraModel::ThinLens, 40.0, [10.5, 44.5]),
-        (CameraModel::ThinLens, 3.0, [32.5, 0.5]),
-        (CameraModel::Hole, 10.6, [40.5, 30.5]),
-        (CameraModel::Pinhole, 10.6, [20.5, 38.5]),
+    let none = [None; KEPT];
+    for (model, focal_distance, position, kept) in [
+        (CameraModel::ThinLens, 10.6, [32.5, 24.5], none),
+        (CameraModel::ThinLens, 10.6, [32.5, 24.5], [Some(9.0), Some(11.0)]),
+        (CameraModel::ThinLens, 10.6, [20.5, 38.5], none),
+        (CameraModel::ThinLens, 40.0, [10.5, 44.5], [Some(5.0), Some(38.5)]),
+        (CameraModel::ThinLens, 3.0, [32.5, 0.5], none),
+        (CameraModel::Hole, 10.6, [40.5, 30.5], none),
+        (CameraModel::Pinhole, 10.6, [20.5, 38.5], [Some(3.0), None]),
     ] {
         settings.estimator.model = model;
         settings.estimator.lens.focal_distance = focal_distance;
@@ -593,9 +601,20 @@ fn no_text_covers_another() {
             .iter()
             .flat_map(|entry| [[640.0, 280.0], [936.0, 270.0], [1580.0, 400.0]].map(|size| (entry, size)))
         {
-            let drawing = diagram::draw(&diagram, &Look { view: entry.view, size, ..LOOK });
-            let what = format!("{} of {model:?} at {position:?} in {size:?}", entry.name);
+            let drawing = diagram::draw(&diagram, &Look { view: entry.view, size, kept, ..LOOK });
+            let what = format!("{} of {model:?} at {position:?} with {kept:?} in {size:?}", entry.name);
             let boxes = boxes(&drawing);
+            if entry.view.is_section() {
+                let kept_count = boxes.iter().filter(|(text, _)| text.starts_with("kept: ")).count();
+                assert_eq!(kept_count, kept.iter().flatten().count(), "{what}");
+                for names in [&["film"][..], &["lens", "hole", "ideal pinhole"]] {
+                    let is_named = |text: &str| names.iter().any(|name| text.split(',').next() == Some(name));
+                    assert!(
+                        boxes.iter().any(|(text, _)| is_named(text)),
+                        "{what}: no {names:?} in {boxes:?}"
+                    );
+                }
+            }
             for (number, (text, [left, top, right, bottom])) in boxes.iter().enumerate() {
                 assert!(*left >= 0.0 && *right <= size[0], "{what}: '{text}' from {left} to {right}");
                 assert!(*top >= 0.0 && *bottom <= size[1], "{what}: '{text}' at {top} to {bottom}");
@@ -637,6 +656,13 @@ fn the_figures_of_the_book_agree_with_their_equations() {
             near("where a ray meets the focal plane", [p[0], height([ray[0], ray[1]], p[0])], p);
         }
 
+        // The picture on the view plane is not magnified.
+        let [low, high] = range(lines(&drawing, Role::Faint)[0].iter().map(|point| point[1]));
+        let drawn = f64::from((glass[1][1] - glass[0][1]).abs() / (high - low)) * diagram.half_picture[1];
+        let said = number(&drawing, "lens is drawn", "times as wide");
+        let reached = drawn / diagram.half_aperture[1];
+        assert!((reached / said - 1.0).abs() < 0.06, "the lens is {reached} times as wide, not {said}");
+
         // The first dot is l.
         let drawing = draw(View::Layout);
         let (l, r) = (dot(&drawing, Role::Glass), dot(&drawing, Role::Primary));
@@ -649,6 +675,14 @@ fn the_figures_of_the_book_agree_with_their_equations() {
         let drawing = draw(View::TwoRays);
         let (l, r) = (dot(&drawing, Role::Glass), dot(&drawing, Role::Primary));
         let (q, centre) = (dot(&drawing, Role::Text), lines(&drawing, Role::Centre)[0][0]);
+        let width = |[left, right]: [f32; 2]| f64::from(right - left);
+        let [rim, picture] = [Role::Glass, Role::Faint].map(|role| {
+            let outline = lines(&drawing, role).into_iter().find(|line| line.len() > 3).expect("an outline");
+            width(range(outline.iter().map(|point| point[1])))
+        });
+        let reached = rim / picture * diagram.half_picture[1] / diagram.half_aperture[1];
+        let said = number(&drawing, "lens is drawn", "times as wide");
+        assert!((reached / said - 1.0).abs() < 0.06, "the lens is {reached} times as wide, not {said}");
         // Both rays come together as they go on, and are at the same place at p.
         let offset = [0, 1].map(|axis| q[axis] + (1.0 - share) * (l[axis] - centre[axis]));
         near("r", r, offset);
@@ -662,4 +696,37 @@ fn the_figures_of_the_book_agree_with_their_equations() {
         let c = range(c.iter().map(|point| point[1]));
         assert!((0..2).all(|end| (c[end] - falls[end]).abs() < 0.2), "c is {c:?}, but light in {falls:?}");
     }
+}
+
+/// Catches kept light in the colour of the other side, light of another depth than was asked for, and light that does not
+/// meet where it should.
+#[test]
+fn light_of_three_points_meets_before_on_and_behind_the_film() {
+    let gpu = Gpu::new();
+    let mut settings = small("version-4");
+    let depth = drawn(&gpu, &settings, [20.5, 38.5]).expect("it is drawn").hit.expect("a surface").z;
+    settings.estimator.lens.focal_distance = depth as f32;
+    let diagram = drawn(&gpu, &settings, [20.5, 38.5]).expect("it is drawn");
+    let look = Look { kept: [Some(0.5 * depth), Some(2.0 * depth)], ..LOOK };
+    let drawing = diagram::draw(&diagram, &look);
+    let scale = drawing.scale.expect("a section");
+    let film = scale.x(-diagram.image.film_distance);
+    let meets = |side: Side, at: f64| {
+        let light = lines(&drawing, Role::LightOf(side));
+        // Half of the lines are in front of the lens. One more may be a mark or an outline.
+        let leaving: Vec<_> =
+            light.iter().filter(|line| line.len() == 2 && line[1][0] < film - 1.0).collect();
+        assert_eq!(leaving.len(), RAYS as usize, "{side:?}");
+        let dot = dots(&drawing, Role::LightOf(side))[0];
+        assert!((scale.depth(dot[0]) / at - 1.0).abs() < 1e-3, "{side:?} at {}", scale.depth(dot[0]));
+        let crossing = diagram.with_point_at(at).image.crossing.expect("it is real");
+        let x = scale.x(-crossing);
+        let heights = range(leaving.iter().map(|line| height([line[0], line[1]], x)));
+        assert!(heights[1] - heights[0] < 0.1, "{side:?}: light passes {heights:?}");
+        x
+    };
+    let [in_front, in_focus, behind] =
+        [meets(Side::InFront, 0.5 * depth), meets(Side::InFocus, depth), meets(Side::Behind, 2.0 * depth)];
+    assert!(in_front < film - 5.0 && (in_focus - film).abs() < 0.5 && behind > film + 5.0);
+    assert!(lines(&drawing, Role::Light).is_empty(), "there is other light");
 }

@@ -116,6 +116,69 @@ fn the_drawing_stands_below_the_picture() {
     again.close();
 }
 
+/// Catches a button that keeps another point than the one that is drawn, that keeps it twice or over another one, or that
+/// forgets only a part; and kept light in the colour of another place.
+#[test]
+fn the_light_of_points_is_kept_and_forgotten() {
+    const POINT: &str = "Point in the drawing";
+    let viewer = Viewer::start(SIZE, &QUICK);
+    viewer.wait_until_done();
+    viewer.click("Optics", |viewer| viewer.controls.borrow().contains_key(POINT));
+    viewer.rest();
+    let saved = |file: &str| {
+        viewer.click("Save drawing", |viewer| viewer.message.borrow().contains(file));
+        std::fs::read_to_string(viewer.folder.join(file)).expect("it is saved")
+    };
+    // The depths that follow a name, each with its colour.
+    let named = |text: &str, name: &str| -> Vec<(f64, String)> {
+        let name = format!(">{name}: ");
+        let lines = text.lines().filter_map(|line| line.split_once(&name));
+        let depth = |rest: &str| rest.split([' ', ',', '<']).next().and_then(|depth| depth.parse().ok());
+        let color = |tag: &str| tag.split("fill=\"").nth(1).map(|color| color[..7].to_owned());
+        lines.map(|(tag, rest)| (depth(rest).expect("a depth"), color(tag).expect("a colour"))).collect()
+    };
+    let keep = || {
+        viewer.click("Keep", |_| true);
+        viewer.rest();
+    };
+    let move_to = |share: f64| {
+        let [x, y, ..] = viewer.controls.borrow()[POINT];
+        let [rim_x, _, width, _] = viewer.controls.borrow()["Rim in the drawing"];
+        let lens = rim_x + width / 2;
+        let to = lens + (f64::from(x - lens) * share).round() as i32;
+        viewer.drag_picture(1, [x, y], [to, y]);
+        viewer.rest();
+    };
+    let found = named(&saved("lens.svg"), "silver")[0].0;
+    keep();
+    move_to(0.5);
+    keep();
+    move_to(2.2);
+    // There is no room for a third one.
+    keep();
+    let text = saved("lens-2.svg");
+    let (mut kept, moved) = (named(&text, "kept"), named(&text, "moved point"));
+    kept.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let depths: Vec<f64> = kept.iter().map(|(depth, _)| *depth).collect();
+    let is_half = |depth: f64| (depth / found - 0.5).abs() < 0.01;
+    assert!(depths.len() == 2 && is_half(depths[0]) && depths[1] == found, "kept at {depths:?}");
+    assert!(moved.len() == 1 && moved[0].0 / found > 1.05, "moved to {moved:?}");
+    // Red less blue.
+    let warmth = |color: &str| {
+        let [red, blue] = [1, 5].map(|at| i32::from_str_radix(&color[at..at + 2], 16).expect("a level"));
+        red - blue
+    };
+    // The focal plane lies between the sphere and the moved point.
+    let [nearest, near, behind] = [&kept[0], &kept[1], &moved[0]].map(|(_, color)| warmth(color));
+    assert!(nearest < 0 && near < 0 && behind > 0, "{kept:?}, {moved:?}");
+
+    viewer.click("Forget", |_| true);
+    viewer.rest();
+    let text = saved("lens-3.svg");
+    assert!(named(&text, "kept").is_empty() && named(&text, "moved point").len() == 1, "{text}");
+    viewer.close();
+}
+
 /// Catches a part of the drawing that cannot be moved, that moves something else, or that does not stay under the
 /// pointer; and a drag that is undone in more than one step.
 #[test]
@@ -166,6 +229,20 @@ fn parts_of_the_drawing_are_moved_by_hand() {
     let ratio = half_tangent(&viewer.view.borrow()) / half_tangent(&view);
     assert!((ratio - 2.0).abs() < 0.05, "the field of view is {} times as large", ratio);
     assert_eq!(viewer.state.borrow()[1], focal_distance, "the focal plane stays where it is");
+    undo();
+
+    // While a part is held, the others keep their places, wherever it is moved. Afterwards the drawing fills its strip.
+    let others = || [RIM, FILM, POINT].map(|name| at(name)[0]);
+    let before = others();
+    viewer.point([plane_x, level]);
+    viewer.hands("mousedown 1", 1);
+    for farther in [1, 2, 3] {
+        viewer.point([plane_x + farther * (plane_x - lens) / 20, level]);
+        assert_eq!(others(), before, "the drawing is refitted while the focal plane is moved");
+    }
+    viewer.hands("mouseup 1", 0);
+    viewer.rest();
+    assert!(at(POINT)[0] < before[2] - 5, "the drawing ends before the focal plane");
     undo();
 
     let depth = |file: &str, name: &str| -> f64 {

@@ -1,6 +1,6 @@
 //! The state of the drawing of the optics. `ui` draws it.
 
-use crate::diagram::{Part, Scale, View};
+use crate::diagram::{KEPT, Part, Scale, View};
 use glam::DVec2;
 
 /// The height of the strip below the picture unless the user has changed it, in points.
@@ -16,6 +16,8 @@ pub(super) struct Optics {
     /// Whether the section has the same scale everywhere.
     pub(super) to_scale: bool,
     pub(super) pin: Pin,
+    /// The depths of further points whose light is drawn.
+    pub(super) kept: [Option<f64>; KEPT],
     /// The part of the drawing that is being moved.
     pub(super) held: Option<HeldPart>,
     /// The height of the strip below the picture in points, as the user has set it.
@@ -47,6 +49,13 @@ pub(super) struct HeldPart {
     pub(super) mm_per_distance: f64,
 }
 
+impl Optics {
+    /// Draws the light of the point that the picture shows, and of no other one.
+    pub(super) fn forget_points(&mut self) {
+        (self.pin.depth, self.kept) = (None, [None; KEPT]);
+    }
+}
+
 impl Default for Optics {
     fn default() -> Self {
         Self {
@@ -55,6 +64,7 @@ impl Default for Optics {
             view: View::Side,
             to_scale: false,
             pin: Pin { share: [0.5; 2], depth: None },
+            kept: [None; KEPT],
             held: None,
             height: STRIP,
         }

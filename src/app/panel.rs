@@ -312,7 +312,7 @@ impl Panel {
         self.initial = Settings { samples: settings.samples, ..initial };
         self.image = settings.estimator.aperture.image.clone().or(self.image.take());
         self.settings = settings;
-        self.optics.pin.depth = None;
+        self.optics.forget_points();
         self.warn();
         self.offer_scene();
         if builtin(name).is_none() {

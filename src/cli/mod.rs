@@ -183,6 +183,10 @@ pub struct DiagramArgs {
     /// and the heights are magnified, and the drawing says how much
     #[arg(long)]
     pub to_scale: bool,
+    /// Also draw the light of points at these depths on the same ray, in scene units: blue in front of the focal plane,
+    /// white in focus, orange behind it. At most two
+    #[arg(long, value_name = "L,L", value_delimiter = ',', allow_negative_numbers = true)]
+    pub also_at: Vec<f64>,
     /// The number of rays through the lens
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 9)]
     pub rays: u32,

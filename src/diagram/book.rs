@@ -2,7 +2,7 @@
 //! except that the opening is drawn larger where it would be too small.
 
 use super::film;
-use super::sheet::{LINE, MARGIN, Pane, Point, Role};
+use super::sheet::{LINE, MARGIN, Name, Pane, Point, Role};
 use super::words::digits;
 use super::{Diagram, Line, View};
 use crate::scene::CameraModel;
@@ -79,7 +79,7 @@ impl Paper {
 
     /// Names things in a line, each near its place.
     fn row(&mut self, y: f32, names: &[([f64; 2], Role, &str)]) {
-        let names = names.iter().map(|(at, role, name)| (self.place(*at)[0], *role, (*name).to_owned()));
+        let names = names.iter().map(|(at, role, name)| Name::new(self.place(*at)[0], *role, *name, *name));
         self.pane.row(y, names.collect());
     }
 
@@ -159,7 +159,7 @@ pub(super) fn draw(diagram: &Diagram, view: View, min: Point, max: Point) -> Vec
         View::TwoRays => vec![two_rays(&front, min, max)],
         View::CircleOfConfusion => {
             let edge = (max[0] - (max[1] - min[1]).min(FILM_SHARE * (max[0] - min[0]))).floor();
-            let mut film = film::draw(diagram, [edge, min[1]], max);
+            let mut film = film::draw(diagram, &[], [edge, min[1]], max);
             film.line([edge, min[1]], [edge, max[1]], Role::Frame, 1.0);
             vec![circle_of_confusion(diagram, min, [edge, max[1]]), film]
         }

@@ -1,8 +1,8 @@
 //! The picture of the film around a pixel: the circle of confusion on the grid of the pixels.
 
-use super::Diagram;
 use super::sheet::{Anchor, LINE, MARGIN, Pane, Point, Role, text_width};
 use super::words::{millimetres, pixels};
+use super::{Diagram, ImageSide};
 
 /// The circle of confusion takes this share of the picture of the film.
 const BLUR_SHARE: f64 = 0.72;
@@ -11,8 +11,8 @@ const MIN_PIXELS: f64 = 5.0;
 /// The lines of the grid are at least this far apart.
 const MIN_SPACING: f64 = 5.0;
 
-/// Draws the film around the pixel, as the picture shows it: upright.
-pub(super) fn draw(diagram: &Diagram, min: Point, max: Point) -> Pane {
+/// Draws the film around the pixel, as the picture shows it: upright. The blur of the other points is an outline.
+pub(super) fn draw(diagram: &Diagram, others: &[Diagram], min: Point, max: Point) -> Pane {
     let mut pane = Pane::new(min, max);
     pane.rectangle(pane.min, pane.max, Role::Paper);
     let (left, right) = (pane.min[0] + MARGIN, pane.max[0] - MARGIN);
@@ -25,7 +25,8 @@ pub(super) fn draw(diagram: &Diagram, min: Point, max: Point) -> Pane {
         return pane;
     }
     let middle = [0.5 * (left + right), 0.5 * (top + bottom)];
-    let shown = (image.blur_pixels / BLUR_SHARE).max(MIN_PIXELS);
+    let widest = others.iter().map(|other| other.image.blur_pixels).fold(image.blur_pixels, f64::max);
+    let shown = (widest / BLUR_SHARE).max(MIN_PIXELS);
     let scale = 2.0 * half_side / shown;
     // To the right and down, in pixels of the picture.
     let place = |[x, y]: [f64; 2]| [middle[0] + (x * scale) as f32, middle[1] + (y * scale) as f32];
@@ -43,7 +44,9 @@ pub(super) fn draw(diagram: &Diagram, min: Point, max: Point) -> Pane {
         pane.line(place([-end, at]), place([end, at]), Role::Grid, 1.0);
     }
     // Where the light through a point of the aperture falls.
-    let falls = |[x, y]: [f64; 2]| place([x * image.blur_radius, -y * image.blur_radius]);
+    let falls_of =
+        |image: &ImageSide, [x, y]: [f64; 2]| place([x * image.blur_radius, -y * image.blur_radius]);
+    let falls = |corner: [f64; 2]| falls_of(image, corner);
     let is_image = image.openings.len() > 1;
     for opening in image.openings.iter().filter(|_| diagram.hit.is_some()) {
         let corners: Vec<Point> = opening.corners.iter().map(|corner| falls(*corner)).collect();
@@ -51,6 +54,10 @@ pub(super) fn draw(diagram: &Diagram, min: Point, max: Point) -> Pane {
         if !is_image {
             pane.outline(corners, Role::Blur, 2.0);
         }
+    }
+    for other in others.iter().filter(|other| other.image.openings.len() == 1) {
+        let corners = other.image.openings[0].corners.iter().map(|corner| falls_of(&other.image, *corner));
+        pane.outline(corners.collect(), other.light_role(false), 1.5);
     }
     if diagram.hit.is_some() {
         pane.dot(place([0.0; 2]), 2.5, Role::Blur);

@@ -16,7 +16,7 @@ mod words;
 
 pub use handle::{Handle, Part};
 pub use outline::Outline;
-pub use paths::{Diagram, ImageSide, Line};
+pub use paths::{Diagram, ImageSide, Line, Side};
 pub use section::Scale;
 pub use sheet::{Anchor, LETTERS, Pane, Point, Role, Shape, text_width};
 pub use svg::svg;
@@ -30,6 +30,9 @@ use sheet::{LINE, MARGIN, wrapped};
 /// The share of the width that the picture of the film takes, if it does not become higher than wide.
 const FILM_SHARE: f32 = 0.3;
 
+/// The section shows the light of at most so many further points.
+pub const KEPT: usize = 2;
+
 /// How the optics are drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Look {
@@ -41,6 +44,8 @@ pub struct Look {
     pub to_scale: bool,
     /// The depths between which everything is sharp, if they are to be shown.
     pub sharp: Option<[f64; 2]>,
+    /// The depths of further points on the same ray whose light the section shows too.
+    pub kept: [Option<f64>; KEPT],
     /// A scale to keep, while a part of the drawing is moved. Otherwise the drawing fills its place.
     pub scale: Option<Scale>,
 }
@@ -100,9 +105,11 @@ pub fn draw(diagram: &Diagram, look: &Look) -> Drawing {
 /// Draws the section on the left and the circle of confusion on the right.
 fn section(diagram: &Diagram, look: &Look, size @ [width, bottom]: Point) -> Drawing {
     let film_left = (width - bottom.min(FILM_SHARE * width)).floor();
-    let ([above, section, below], scale) = section::draw(diagram, look, [film_left, bottom]);
+    let others: Vec<Diagram> =
+        look.kept.into_iter().flatten().map(|depth| diagram.with_point_at(depth)).collect();
+    let ([above, section, below], scale) = section::draw(diagram, &others, look, [film_left, bottom]);
     let handles = handle::handles(diagram, look, &scale, [section.min[1], section.max[1]]);
-    let mut film = film::draw(diagram, [film_left, 0.0], size);
+    let mut film = film::draw(diagram, &others, [film_left, 0.0], size);
     film.line([film_left, 0.0], [film_left, bottom], Role::Frame, 1.0);
     Drawing { size, panes: vec![above, section, below, film], scale: Some(scale), handles }
 }

@@ -17,6 +17,20 @@ const BEYOND: f64 = 1.2;
 /// If one of them is more than this many times as far as the other, the drawing ends before it.
 const MAX_DEPTH_RATIO: f64 = 4.0;
 
+/// A blur of at most so many pixels cannot be seen.
+pub(super) const SHARP: f64 = 0.5;
+
+/// Where a point is, seen from the lens.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// Nearer than the focal plane.
+    InFront,
+    /// As sharp as if it lay in the focal plane.
+    InFocus,
+    /// Farther away than the focal plane.
+    Behind,
+}
+
 /// A line of the drawing.
 pub type Line = [DVec3; 2];
 
@@ -169,6 +183,16 @@ impl Diagram {
         moved.reach = extent(self.focus, Some(hit), self.image.film_distance).1;
         moved.take_light(hit);
         moved
+    }
+
+    /// Where the point is whose light is drawn, if there is a focal plane.
+    pub fn side(&self) -> Option<Side> {
+        let ((focal_distance, _), hit) = self.focus.zip(self.hit)?;
+        Some(match hit.z {
+            _ if self.image.blur_pixels <= SHARP => Side::InFocus,
+            depth if depth < focal_distance => Side::InFront,
+            _ => Side::Behind,
+        })
     }
 
     /// Follows light from `hit` through the points of the lens where the primary rays start.

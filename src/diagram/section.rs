@@ -1,7 +1,7 @@
 //! The section: film, lens, focal plane and object from left to right, cut along the centre ray.
 
-use super::sheet::{LINE, MARGIN, Pane, Point, Role};
-use super::words::{depth, digits, meeting, millimetres};
+use super::sheet::{LINE, MARGIN, Name, Pane, Point, Role};
+use super::words::{depth, digits, meeting, millimetres, pixels};
 use super::{Diagram, Line, Look};
 use crate::scene::CameraModel;
 use glam::DVec3;
@@ -45,9 +45,11 @@ impl Scale {
     }
 
     /// Chooses the scale such that the drawing fills this rectangle.
-    fn new(diagram: &Diagram, look: &Look, min: Point, max: Point) -> Self {
+    fn new(diagram: &Diagram, others: &[Diagram], look: &Look, min: Point, max: Point) -> Self {
         let [width, height] = [0, 1].map(|axis| f64::from((max[axis] - min[axis]).max(1.0)));
-        let (front, back) = (diagram.reach, BEHIND_FILM * film_side_end(diagram));
+        let all = || others.iter().chain([diagram]);
+        let front = all().map(|of| of.reach).fold(0.0, f64::max);
+        let back = BEHIND_FILM * all().map(film_side_end).fold(0.0, f64::max);
         let mut scale = Self {
             lens: [0.0; 2],
             in_front: 1.0,
@@ -59,7 +61,8 @@ impl Scale {
         };
         scale.slope = scale.aside(diagram.slope);
         // How far the rays get from the centre ray, and the centre ray from the axis.
-        let fans = [fan(diagram, look.above()), light(diagram, look.above())].concat();
+        let light = all().flat_map(|of| light(of, look.above()));
+        let fans: Vec<Line> = light.chain(fan(diagram, look.above())).collect();
         let half_fan = fans.iter().flatten().map(|point| scale.off_centre(*point).abs()).fold(0.0, f64::max);
         let half_rise = scale.slope.abs() * front.max(back);
         if look.to_scale {
@@ -154,10 +157,15 @@ fn light(diagram: &Diagram, above: bool) -> Vec<Line> {
 
 /// Draws the section into the left part of the sheet, which has this size: names, the section itself, and further names.
 /// Also gives its scale.
-pub(super) fn draw(diagram: &Diagram, look: &Look, [right, end]: Point) -> ([Pane; 3], Scale) {
+pub(super) fn draw(
+    diagram: &Diagram,
+    others: &[Diagram],
+    look: &Look,
+    [right, end]: Point,
+) -> ([Pane; 3], Scale) {
     let top = MARGIN + LINE;
     let bottom = (end - 2.0 * LINE - MARGIN).max(top + 1.0);
-    let filling = || Scale::new(diagram, look, [MARGIN, top], [right - MARGIN, bottom]);
+    let filling = || Scale::new(diagram, others, look, [MARGIN, top], [right - MARGIN, bottom]);
     let scale = look.scale.map_or_else(filling, |scale| scale.kept(diagram, look));
     let [mut above, mut pane, mut below] =
         [[0.0, top], [top, bottom], [bottom, end]].map(|[from, to]| Pane::new([0.0, from], [right, to]));
@@ -169,34 +177,57 @@ pub(super) fn draw(diagram: &Diagram, look: &Look, [right, end]: Point) -> ([Pan
     let film = scale.x(-image.film_distance);
     let within = |depth: f64| scale.x(depth).clamp(0.0, right);
 
-    let mut names = Vec::new();
     let meets = meeting(diagram).zip(image.crossing);
-    names.extend(meets.map(|(name, crossing)| (within(-crossing), Role::Blur, name)));
+    let mut names_below: Vec<Name> = meets
+        .map(|(name, crossing)| Name::new(within(-crossing), Role::Blur, name, "light meets here"))
+        .into_iter()
+        .collect();
     if let Some([near, far]) = look.sharp {
         let band = [within(near), within(far)];
         pane.rectangle([band[0], top], [band[1], bottom], Role::Sharp);
         let far = if far.is_finite() { digits(far, 3) } else { "infinity".into() };
         let name = format!("sharp from {} to {far}", digits(near, 3));
-        names.push((0.5 * (band[0] + band[1]), Role::SharpName, name));
+        names_below.push(Name::new(0.5 * (band[0] + band[1]), Role::SharpName, name, "sharp"));
     }
-    below.row(bottom + 0.5 * LINE, names);
-    below.row(bottom + 1.5 * LINE, vec![(0.0, Role::Faint, scale.words())]);
+    below.row(bottom + 0.5 * LINE, names_below);
+    below.row(bottom + 1.5 * LINE, vec![Name::new(0.0, Role::Faint, scale.words(), "magnified")]);
 
     pane.line([0.0, scale.lens[1]], [right, scale.lens[1]], Role::Frame, 1.0);
     pane.line([film, top], [film, bottom], Role::Film, 2.0);
     if let Some((depth, _)) = diagram.focus {
         pane.line([scale.x(depth), top], [scale.x(depth), bottom], Role::Focus, 2.0);
     }
-    rays(&mut pane, diagram, look, &scale);
+    for other in others {
+        lit(&mut pane, other, other.light_role(false), look, &scale);
+    }
+    rays(&mut pane, diagram, others.is_empty(), look, &scale);
     opening(&mut pane, diagram, look, &scale, [top, bottom]);
-    marks(&mut pane, diagram, look, &scale);
+    for other in others {
+        let role = other.light_role(false);
+        marks(&mut pane, other, [role; 2], look, &scale);
+    }
+    marks(&mut pane, diagram, [diagram.light_role(others.is_empty()), Role::Blur], look, &scale);
 
-    let mut names = Vec::new();
+    above.row(0.5 * top, names(diagram, others, &scale, right));
+    ([above, pane, below], scale)
+}
+
+/// The names above the section. Where there is not room for all that they say, film and lens keep their bare names.
+fn names(diagram: &Diagram, others: &[Diagram], scale: &Scale, right: f32) -> Vec<Name> {
+    let within = |depth: f64| scale.x(depth).clamp(0.0, right);
+    let film_distance = diagram.image.film_distance;
+    let behind = format!("film, {} behind", millimetres(film_distance * diagram.mm_per_unit));
+    let (opening, wide) = opening_name(diagram);
+    let mut names = vec![
+        Name::new(within(-film_distance), Role::Film, behind, "film"),
+        Name::new(scale.lens[0], Role::Glass, format!("{opening}{wide}"), opening),
+    ];
     if let Some((focal_distance, _)) = diagram.focus {
         let is_shown = scale.x(focal_distance) <= right;
         let name = if is_shown { "focal plane" } else { "focal plane, farther away" };
-        let name = format!("{name}: {}", depth(diagram, focal_distance));
-        names.push((within(focal_distance), Role::Focus, name));
+        let whole = format!("{name}: {}", depth(diagram, focal_distance));
+        let short = format!("focal plane: {}", digits(focal_distance, 3));
+        names.push(Name::new(within(focal_distance), Role::Focus, whole, short));
     }
     if let Some(hit) = diagram.hit {
         let name = match diagram.material.as_str() {
@@ -204,13 +235,16 @@ pub(super) fn draw(diagram: &Diagram, look: &Look, [right, end]: Point) -> ([Pan
             "" => "object",
             material => material,
         };
-        names.push((within(hit.z), Role::Light, format!("{name}: {}", depth(diagram, hit.z))));
+        let (whole, short) = (depth(diagram, hit.z), digits(hit.z, 3));
+        let role = diagram.light_role(others.is_empty());
+        names.push(Name::new(within(hit.z), role, format!("{name}: {whole}"), format!("{name}: {short}")));
     }
-    names.push((scale.lens[0], Role::Glass, opening_name(diagram)));
-    let distance = millimetres(image.film_distance * diagram.mm_per_unit);
-    names.push((film, Role::Film, format!("film, {distance} behind")));
-    above.row(0.5 * top, names);
-    ([above, pane, below], scale)
+    for (other, hit) in others.iter().filter_map(|other| other.hit.map(|hit| (other, hit))) {
+        let short = format!("kept: {}", digits(hit.z, 3));
+        let whole = format!("{short}, {}", pixels(other.image.blur_pixels));
+        names.push(Name::new(within(hit.z), other.light_role(false), whole, short));
+    }
+    names
 }
 
 fn objects(pane: &mut Pane, diagram: &Diagram, look: &Look, scale: &Scale) {
@@ -227,24 +261,28 @@ fn objects(pane: &mut Pane, diagram: &Diagram, look: &Look, scale: &Scale) {
     }
 }
 
-fn rays(pane: &mut Pane, diagram: &Diagram, look: &Look, scale: &Scale) {
+fn rays(pane: &mut Pane, diagram: &Diagram, is_alone: bool, look: &Look, scale: &Scale) {
     let fan = fan(diagram, look.above());
     let mut line = |[from, to]: Line, role: Role| pane.line(scale.place(from), scale.place(to), role, 1.0);
     for ray in &fan {
         line(*ray, Role::Ray);
     }
-    if let Some(hit) = diagram.hit {
-        for ray in &fan {
-            line([hit, ray[0]], Role::Light);
-        }
-    }
-    for ray in light(diagram, look.above()) {
-        line(ray, Role::Light);
-    }
+    lit(pane, diagram, diagram.light_role(is_alone), look, scale);
     let image = &diagram.image;
     let end = diagram.hit.unwrap_or(diagram.centre[1]);
     pane.dashed(scale.lens, scale.place(end), Role::Centre);
     pane.dashed(scale.lens, scale.place(image.p), Role::Centre);
+}
+
+/// Draws the light of the point on both sides of the lens.
+fn lit(pane: &mut Pane, diagram: &Diagram, role: Role, look: &Look, scale: &Scale) {
+    let Some(hit) = diagram.hit else {
+        return;
+    };
+    let arriving = fan(diagram, look.above()).into_iter().map(|ray| [hit, ray[0]]);
+    for [from, to] in arriving.chain(light(diagram, look.above())) {
+        pane.line(scale.place(from), scale.place(to), role, 1.0);
+    }
 }
 
 /// Draws the lens, or the hole, and the wall around it.
@@ -270,19 +308,20 @@ fn opening(pane: &mut Pane, diagram: &Diagram, look: &Look, scale: &Scale, [top,
     }
 }
 
-fn opening_name(diagram: &Diagram) -> String {
+/// The name of the lens or the hole, and what it is followed by: how wide it is.
+fn opening_name(diagram: &Diagram) -> (&'static str, String) {
     let wide = diagram.half_aperture.map(|half| 2.0 * half * diagram.mm_per_unit);
-    let wide = millimetres(wide[0].max(wide[1]));
+    let wide = format!(", {} wide", millimetres(wide[0].max(wide[1])));
     match diagram.model {
-        CameraModel::Pinhole => "ideal pinhole".into(),
-        CameraModel::Hole => format!("hole, {wide} wide"),
-        CameraModel::ThinLens if diagram.half_aperture == [0.0; 2] => "pinhole".into(),
-        CameraModel::ThinLens => format!("lens, {wide} wide"),
+        CameraModel::Pinhole => ("ideal pinhole", String::new()),
+        CameraModel::Hole => ("hole", wide),
+        CameraModel::ThinLens if diagram.half_aperture == [0.0; 2] => ("pinhole", String::new()),
+        CameraModel::ThinLens => ("lens", wide),
     }
 }
 
-/// Marks the object's point, the place where light meets, and the blur on the film.
-fn marks(pane: &mut Pane, diagram: &Diagram, look: &Look, scale: &Scale) {
+/// Marks the object's point, and in the second colour the place where light meets, and the blur on the film.
+fn marks(pane: &mut Pane, diagram: &Diagram, [role, on_film]: [Role; 2], look: &Look, scale: &Scale) {
     let image = &diagram.image;
     if let Some((_, p)) = diagram.focus {
         pane.dot(scale.place(p), 3.0, Role::Focus);
@@ -290,16 +329,18 @@ fn marks(pane: &mut Pane, diagram: &Diagram, look: &Look, scale: &Scale) {
     let Some(hit) = diagram.hit else {
         return;
     };
-    pane.dot(scale.place(hit), 4.0, Role::Light);
+    pane.dot(scale.place(hit), 4.0, role);
     let axis = usize::from(!look.above());
     let widest = diagram.half_aperture[0].max(diagram.half_aperture[1]).max(f64::MIN_POSITIVE);
     let half = 0.5 * image.blur * (diagram.half_aperture[axis] / widest) * scale.fan;
     let [x, y] = scale.place(image.p);
-    pane.line([x, y - half as f32], [x, y + half as f32], Role::Blur, 4.0);
+    pane.line([x, y - half as f32], [x, y + half as f32], on_film, 4.0);
     if let Some(crossing) = image.crossing {
         let [x, y] = scale.place(-crossing * diagram.slope);
-        pane.dot([x, y], 3.5, Role::Blur);
+        pane.dot([x, y], 3.5, on_film);
         // A line leads from the name below up to the place.
-        pane.line([x, y + 5.0], [x, pane.max[1]], Role::Blur, 1.0);
+        if on_film == Role::Blur {
+            pane.line([x, y + 5.0], [x, pane.max[1]], on_film, 1.0);
+        }
     }
 }

@@ -1,5 +1,8 @@
 //! What a drawing consists of: lines, areas and text, whose colours follow from what they stand for.
 
+use super::Diagram;
+use super::paths::Side;
+use crate::scene::Overlay;
 use ab_glyph::{Font, FontRef, PxScale, ScaleFont};
 use std::sync::LazyLock;
 
@@ -51,6 +54,8 @@ pub enum Role {
     Primary,
     /// The light of the object.
     Light,
+    /// The light of a point, in the colour of the overlay that shows the circle of confusion.
+    LightOf(Side),
     /// The ray through the centre of the lens.
     Centre,
     /// The circle of confusion, and the place where light meets.
@@ -84,6 +89,16 @@ impl Role {
             Self::Ray => [1.0, 0.93, 0.55, 0.35],
             Self::Primary => [1.0, 0.93, 0.55, 1.0],
             Self::Light => [0.45, 0.85, 0.90, 0.85],
+            Self::LightOf(side) => {
+                let colors = Overlay::CircleOfConfusion.entry().colors;
+                let number = match side {
+                    Side::InFront => 0,
+                    Side::InFocus => 1,
+                    Side::Behind => 2,
+                };
+                let [red, green, blue] = colors[number].map(|level| level.powf(1.0 / 2.2));
+                [red, green, blue, 0.85]
+            }
             Self::Centre => [1.0, 1.0, 1.0, 0.80],
             Self::Blur => [1.0, 0.42, 0.47, 1.0],
             Self::BlurInside(light) => [1.0, 0.36, 0.42, 0.60 * light.clamp(0.0, 1.0)],
@@ -173,6 +188,24 @@ pub struct Pane {
     pub shapes: Vec<Shape>,
 }
 
+/// A name in a row of names.
+pub(super) struct Name {
+    /// The horizontal place of what it names.
+    pub(super) x: f32,
+    /// What it names.
+    pub(super) role: Role,
+    /// The whole name.
+    pub(super) text: String,
+    /// What is written where there is not room for the whole name.
+    pub(super) short: String,
+}
+
+impl Name {
+    pub(super) fn new(x: f32, role: Role, text: impl Into<String>, short: impl Into<String>) -> Self {
+        Self { x, role, text: text.into(), short: short.into() }
+    }
+}
+
 impl Pane {
     pub(super) fn new(min: Point, max: Point) -> Self {
         Self { min, max: [max[0].max(min[0] + 1.0), max[1].max(min[1] + 1.0)], shapes: Vec::new() }
@@ -245,28 +278,35 @@ impl Pane {
     }
 
     /// Writes names in a row, each as near as possible to its place, and none over another one. If there is not room
-    /// for all of them, the last ones in the list are left out.
-    pub(super) fn row(&mut self, y: f32, mut names: Vec<(f32, Role, String)>) {
+    /// for all of them, the first ones in the list are shortened, and after that the last ones are left out.
+    pub(super) fn row(&mut self, y: f32, mut names: Vec<Name>) {
         let (left, right) = (self.min[0] + MARGIN, self.max[0] - MARGIN);
-        let needed = |names: &[(f32, Role, String)]| {
-            names.iter().map(|(.., name)| text_width(name) + APART).sum::<f32>() - APART
+        let is_too_wide = |names: &[Name]| {
+            let needed = names.iter().map(|name| text_width(&name.text) + APART).sum::<f32>() - APART;
+            needed > right - left
         };
-        while !names.is_empty() && needed(&names) > right - left {
+        let mut shortened = 0;
+        while shortened < names.len() && is_too_wide(&names) {
+            names[shortened].text = std::mem::take(&mut names[shortened].short);
+            shortened += 1;
+        }
+        while !names.is_empty() && is_too_wide(&names) {
             names.pop();
         }
-        names.sort_by(|a, b| a.0.total_cmp(&b.0));
+        names.sort_by(|a, b| a.x.total_cmp(&b.x));
         let mut starts = Vec::new();
         let mut free = left;
-        for (x, _, name) in &names {
-            let start = (x - 0.5 * text_width(name)).max(free);
+        for name in &names {
+            let width = text_width(&name.text);
+            let start = (name.x - 0.5 * width).max(free);
             starts.push(start);
-            free = start + text_width(name) + APART;
+            free = start + width + APART;
         }
         let mut end = right;
-        for ((_, role, name), start) in names.into_iter().zip(starts).rev() {
-            let start = start.min(end - text_width(&name));
+        for (name, start) in names.into_iter().zip(starts).rev() {
+            let start = start.min(end - text_width(&name.text));
             end = start - APART;
-            self.text([start, y], Anchor::Start, role, name);
+            self.text([start, y], Anchor::Start, name.role, name.text);
         }
     }
 }
@@ -291,4 +331,11 @@ pub(super) fn wrapped(text: &str, width: f32) -> Vec<String> {
         }
     }
     lines
+}
+
+impl Diagram {
+    /// The colour of the light. If it is not the only light, its colour says where the point is.
+    pub(super) fn light_role(&self, is_alone: bool) -> Role {
+        self.side().filter(|_| !is_alone).map_or(Role::Light, Role::LightOf)
+    }
 }

@@ -1,10 +1,8 @@
 //! What happens with the light of a point, in words.
 
 use super::Diagram;
+use super::paths::SHARP;
 use crate::scene::CameraModel;
-
-/// A blur of at most so many pixels cannot be seen.
-const SHARP: f64 = 0.5;
 
 /// A sentence that says where the light of the point meets, and what the film shows of it.
 pub fn sentence(diagram: &Diagram) -> String {

@@ -2,7 +2,7 @@
 
 use super::headless::position;
 use super::say;
-use crate::diagram::{self, Diagram, Look, View, sharp_depths};
+use crate::diagram::{self, Diagram, KEPT, Look, View, sharp_depths};
 use crate::error::{Error, Result};
 use crate::pending_file::{PendingFile, keep_apart};
 use crate::renderer::{Question, Renderer};
@@ -13,6 +13,8 @@ use std::sync::Arc;
 
 /// The smallest and the largest width and height of a drawing.
 const EXTENTS: [u32; 2] = [200, 16384];
+/// The smallest and the largest depth of a point, in scene units.
+const DEPTHS: [f64; 2] = [1e-6, 1e9];
 /// The smallest and the largest number of rays through the lens.
 const RAYS: [u32; 2] = [3, 65];
 
@@ -29,6 +31,8 @@ pub struct DrawingJob {
     pub rays: u32,
     /// What is drawn.
     pub view: View,
+    /// The depths of further points on the same ray whose light is drawn too.
+    pub kept: Vec<f64>,
     /// Whether depths and heights have the same scale everywhere.
     pub to_scale: bool,
     /// The SVG file.
@@ -54,6 +58,16 @@ pub fn draw_optics(job: &DrawingJob) -> Result<()> {
         if !(least..=most).contains(&value) {
             return Err(Error::OutOfRange(format!("{what} is {value}, but must be from {least} to {most}")));
         }
+    }
+    if job.kept.len() > KEPT {
+        return Err(Error::OutOfRange(format!(
+            "--also-at has {} depths, but can have {KEPT}",
+            job.kept.len()
+        )));
+    }
+    if let Some(depth) = job.kept.iter().find(|depth| !(DEPTHS[0]..=DEPTHS[1]).contains(*depth)) {
+        let [least, most] = DEPTHS;
+        return Err(Error::OutOfRange(format!("--also-at is {depth}, but must be from {least} to {most}")));
     }
     keep_apart(&[("the drawing", &job.output)], &job.settings.files())?;
     let instance = Instance::new(job.device.validation, None)?;
@@ -92,6 +106,7 @@ fn draw_on(instance: &Arc<Instance>, job: &DrawingJob) -> Result<()> {
         view: job.view,
         to_scale: job.to_scale,
         sharp: sharp_depths(&job.settings),
+        kept: [0, 1].map(|number| job.kept.get(number).copied()),
         scale: None,
     };
     save_drawing(&diagram::draw(&diagram, &look), &job.output)?;

@@ -3,11 +3,11 @@
 use super::BACKGROUND;
 use super::drawing::paint;
 use super::grasp::note_handles;
-use super::widgets::{Layout, Side, edge, note_item, note_window, tooltip};
+use super::widgets::{Layout, Side, button, edge, note_item, note_window, tooltip};
 use crate::app::area::Area;
 use crate::app::optics::Optics;
 use crate::app::save_as::{absolute, unused_name};
-use crate::diagram::{self, Diagram, Look, VIEWS};
+use crate::diagram::{self, Diagram, KEPT, Look, VIEWS};
 use crate::error::Result;
 use crate::output;
 use crate::settings::Estimator;
@@ -72,11 +72,13 @@ impl Optics {
                         let saves = ui.button("Save##drawing");
                         note_item(ui, "Save drawing", layout);
                         tooltip(ui, "Saves the drawing as an SVG file in the current folder.");
+                        self.keep(ui, diagram, layout);
                         let look = Look {
                             size: ui.content_region_avail().map(f32::floor),
                             view: self.view,
                             to_scale: self.to_scale,
                             sharp,
+                            kept: self.kept,
                             scale: self.held.map(|held| held.scale),
                         };
                         let corner = ui.cursor_screen_pos();
@@ -97,6 +99,29 @@ impl Optics {
             self.height = (bottom - place).round();
         }
         saved
+    }
+
+    /// Draws the buttons that keep the light of a point in the section.
+    fn keep(&mut self, ui: &Ui, diagram: &Diagram, layout: &mut Layout) {
+        if !self.view.is_section() {
+            return;
+        }
+        let free = self.kept.iter_mut().find(|kept| kept.is_none());
+        ui.same_line();
+        ui.disabled(free.is_none() || diagram.hit.is_none(), || {
+            let help = "Keeps the light of this point in the drawing while you choose the next one: blue in front of the focal plane, white in focus, orange behind it. Two can be kept.";
+            if button(ui, "Keep", help, layout)
+                && let (Some(free), Some(hit)) = (free, diagram.hit)
+            {
+                *free = Some(hit.z);
+            }
+        });
+        if self.kept.iter().any(Option::is_some) {
+            ui.same_line();
+            if button(ui, "Forget", "Takes the kept light out of the drawing.", layout) {
+                self.kept = [None; KEPT];
+            }
+        }
     }
 
     fn controls(&mut self, ui: &Ui, layout: &mut Layout) {
