@@ -52,6 +52,7 @@ fn run(command: Command) -> Result<()> {
             rays: args.rays,
             view: args.view,
             kept: args.also_at,
+            picture: args.picture,
             to_scale: args.to_scale,
             output: args.output,
             device: args.device.choice(),

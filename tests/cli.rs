@@ -416,8 +416,20 @@ fn a_drawing_of_the_optics_is_saved() {
     ] {
         assert_ne!(sentence(more).1, middle, "{more:?}");
     }
+    let picture = |size: &str| {
+        let render = ["render", "version-4", "-q", "-n", "1", "-s", size, "-o", "picture.png"];
+        assert_eq!(run(folder, &render).code, 0);
+    };
+    picture("320x240");
+    assert_ne!(sentence(&["--picture", "picture.png"]).1, middle, "the pixels are drawn");
+    picture("100x80");
     for (more, reason) in [
-        (&["-o", "lens.png"][..], "a drawing is a .svg; lens.png is not"),
+        (
+            &["-o", "a.svg", "--picture", "picture.png"][..],
+            "picture.png: it has 100x80 pixels, but the drawing is of a picture with 320x240 pixels",
+        ),
+        (&["-o", "a.svg", "--picture", "lens.svg"], "lens.svg: it cannot be read"),
+        (&["-o", "lens.png"], "a drawing is a .svg; lens.png is not"),
         (
             &["-o", "a.svg", "--pixel", "320,0"],
             "pixel is at 320,0, but must be within the picture's 320x240 pixels",

@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use thinlens::diagram::{
     self, Diagram, Drawing, KEPT, LETTERS, Line, Look, Outline, Point, Role, Shape, Side, VIEWS, View,
 };
-use thinlens::renderer::Question;
+use thinlens::renderer::{Excerpt, Question};
 use thinlens::scene::{Aperture, CameraModel, Hole};
 use thinlens::settings::Settings;
 
@@ -140,12 +140,13 @@ fn light_spreads_on_the_film_over_the_circle_of_confusion() {
     assert!(diagram.half_aperture == [0.0; 2] && diagram.image.blur < 1e-12, "a pinhole blurs nothing");
 }
 
-const LOOK: Look = Look {
+const LOOK: Look<'_> = Look {
     size: [1100.0, 420.0],
     view: View::Side,
     to_scale: false,
     sharp: Some([8.0, 12.0]),
     kept: [None; KEPT],
+    picture: None,
     scale: None,
 };
 
@@ -541,12 +542,19 @@ fn a_saved_drawing_has_every_part() {
     let mut settings = small("version-4");
     settings.estimator.aperture.blades = 6;
     let models = [CameraModel::ThinLens, CameraModel::Pinhole, CameraModel::Hole];
+    let [width, height] = settings.estimator.size;
+    let picture = Excerpt::of(
+        &vec![[255, 128, 0]; (width * height) as usize],
+        [width, height],
+        [20, 38],
+        Excerpt::MAX_REACH,
+    );
     for (model, size) in models.into_iter().flat_map(|model| [(model, [1100.0, 420.0]), (model, [1.0, 1.0])])
     {
         settings.estimator.model = model;
         let mut diagram = drawn(&gpu, &settings, [20.5, 38.5]).expect("it is drawn");
         diagram.material = "<silver> & \"gold\"\u{1}".into();
-        let drawing = diagram::draw(&diagram, &Look { size, ..LOOK });
+        let drawing = diagram::draw(&diagram, &Look { size, picture: Some(&picture), ..LOOK });
         let text = diagram::svg(&drawing);
         let document = roxmltree::Document::parse(&text).unwrap_or_else(|error| panic!("{error}: {text}"));
         let count = |names: &[&str]| {
@@ -554,7 +562,9 @@ fn a_saved_drawing_has_every_part() {
         };
         assert_eq!(count(&["svg"]), 1 + drawing.panes.len());
         // One rectangle is the background.
-        assert_eq!(count(&["polyline", "polygon", "circle", "text"]), shapes(&drawing).count());
+        assert_eq!(count(&["polyline", "polygon", "circle", "text", "rect"]), 1 + shapes(&drawing).count());
+        let is_colored = size[0] < 2.0 || text.contains("fill=\"#ff8000\"");
+        assert!(is_colored, "the colour of the picture: {text}");
         let written: Vec<String> = document
             .descendants()
             .filter(|node| node.has_tag_name(("http://www.w3.org/2000/svg", "text")))
@@ -605,8 +615,12 @@ fn no_text_covers_another() {
             let what = format!("{} of {model:?} at {position:?} with {kept:?} in {size:?}", entry.name);
             let boxes = boxes(&drawing);
             if entry.view.is_section() {
-                let kept_count = boxes.iter().filter(|(text, _)| text.starts_with("kept: ")).count();
-                assert_eq!(kept_count, kept.iter().flatten().count(), "{what}");
+                for depth in kept.into_iter().flatten() {
+                    let number = if depth < 10.0 { format!("{depth:.2}") } else { format!("{depth:.1}") };
+                    let is_named =
+                        |text: &str| text.trim_start_matches("kept: ").split(',').next() == Some(&number);
+                    assert!(boxes.iter().any(|(text, _)| is_named(text)), "{what}: no {number} in {boxes:?}");
+                }
                 for names in [&["film"][..], &["lens", "hole", "ideal pinhole"]] {
                     let is_named = |text: &str| names.iter().any(|name| text.split(',').next() == Some(name));
                     assert!(
@@ -729,4 +743,72 @@ fn light_of_three_points_meets_before_on_and_behind_the_film() {
         [meets(Side::InFront, 0.5 * depth), meets(Side::InFocus, depth), meets(Side::Behind, 2.0 * depth)];
     assert!(in_front < film - 5.0 && (in_focus - film).abs() < 0.5 && behind > film + 5.0);
     assert!(lines(&drawing, Role::Light).is_empty(), "there is other light");
+}
+
+/// Catches pixels of the picture at other places than in the picture of the film, beside the pixel, in other colours, or
+/// outside of the picture.
+#[test]
+fn pixels_of_the_picture_stand_beside_the_circle_of_confusion() {
+    let gpu = Gpu::new();
+    let mut settings = small("version-4");
+    let size @ [width, height] = settings.estimator.size;
+    // No two pixels have the same colour.
+    let colors: Vec<[u8; 3]> =
+        (0..height).flat_map(|y| (0..width).map(move |x| [x as u8, y as u8, 100])).collect();
+    for (focal_distance, middle) in [(10.6, [32, 24]), (9.0, [3, 40]), (1.0, [32, 24])] {
+        settings.estimator.lens.focal_distance = focal_distance;
+        let position = middle.map(|at| at as f32 + 0.5);
+        let diagram = drawn(&gpu, &settings, position).expect("it is drawn");
+        let reach = diagram::draw(&diagram, &LOOK).reach;
+        let excerpt = Excerpt::of(&colors, size, middle, reach);
+        let drawing = diagram::draw(&diagram, &Look { picture: Some(&excerpt), ..LOOK });
+        let square = areas(&drawing, Role::Pixel)[0];
+        let (left, top) = (range(square.iter().map(|at| at[0])), range(square.iter().map(|at| at[1])));
+        let pixel = left[1] - left[0];
+        let [min, max] = drawing.middle_pixel.expect("it is shown");
+        assert!(
+            (max[0] - min[0] - pixel).abs() < 0.01,
+            "its pixels are {} wide, not {pixel}",
+            max[0] - min[0]
+        );
+        assert!(
+            (min[1] - top[0]).abs() < 0.01 && min[0] > left[1],
+            "it stands at {min:?}, not beside {left:?}"
+        );
+        let film = drawing.panes[3].max[0];
+        assert!(
+            (min[0] - film - (left[0] - drawing.panes[3].min[0])).abs() < 0.6,
+            "it is not beside the film"
+        );
+
+        let squares: Vec<_> = shapes(&drawing)
+            .filter_map(|shape| match shape {
+                Shape::Square { min, max, role: Role::Shown(color) } => Some((*min, *max, *color)),
+                _ => None,
+            })
+            .collect();
+        let shown = (diagram.image.blur_pixels / 0.72).max(5.0);
+        let is_whole = shown < 48.0;
+        let mut seen = BTreeSet::new();
+        for ([l, t], [r, b], color) in squares {
+            let offset = [(0.5 * (l + r) - min[0]) / pixel, (0.5 * (t + b) - min[1]) / pixel];
+            // A square that is the mean of some pixels has the colour of its middle, unless it is cut off.
+            let expected = [0, 1].map(|axis| middle[axis] as f32 + offset[axis] - 0.5);
+            let slack = if is_whole { 0.01 } else { 0.51 };
+            let is_cut = (r - l).min(b - t) < 0.99 * pixel * (shown / 48.0).ceil() as f32;
+            let off = [0, 1].map(|axis| (f32::from(color[axis]) - expected[axis]).abs());
+            assert!(is_cut || off[0].max(off[1]) <= slack, "{color:?} at {offset:?} from {middle:?}");
+            seen.insert(color);
+        }
+        let reach = 0.5 * shown;
+        let count = |axis: usize| {
+            let within = |at: &u32| (f64::from(*at) - f64::from(middle[axis])).abs() - 0.5 < reach;
+            (0..size[axis]).filter(within).count()
+        };
+        if is_whole {
+            assert_eq!(seen.len(), count(0) * count(1), "{shown} pixels around {middle:?}");
+        } else {
+            assert!(seen.len() > 400, "{}", seen.len());
+        }
+    }
 }

@@ -2,13 +2,16 @@
 
 mod common;
 
-use common::run;
 use common::viewer::{PANEL, Viewer};
+use common::{decode_png, render_png, run};
 use thinlens::scene;
 
 const SIZE: [u16; 2] = [800, 720];
 /// The size of the picture when the drawing stands below it.
 const OPEN: [u16; 2] = [800, 400];
+
+/// A pixel of this picture at the edge of a sphere.
+const EDGE: [u16; 2] = [299, 190];
 
 /// A wide open picture of the scene, which is quick.
 const QUICK: [&str; 2] = ["-n", "2"];
@@ -55,15 +58,28 @@ fn the_drawing_in_the_viewer_is_the_saved_one() {
     viewer.wait_until_done();
     viewer.click("Optics", |viewer| viewer.controls.borrow().contains_key("Save drawing"));
     let read = |name: &str| std::fs::read_to_string(viewer.folder.join(name));
+    viewer.wait_until_done();
+    let picture_size = format!("{}x{}", OPEN[0], OPEN[1]);
+    let render = ["render", "-q", "-s", &picture_size, QUICK[0], QUICK[1], "-o", "whole.png"];
+    assert_eq!(run(&viewer.folder, &render).code, 0);
     let saved = |above: &str, file: &str, more: &[&str]| {
         viewer.click("Save drawing", |_| read(file).is_ok());
         viewer.wait_for("saving", |viewer| viewer.message.borrow().contains(file));
         let text = read(file).expect("it is saved");
         let size = text.split("viewBox=\"0 0 ").nth(1).and_then(|rest| rest.split('"').next());
         let drawing_size = size.expect("a size").replace(' ', "x");
-        let picture_size = format!("{}x{}", OPEN[0], OPEN[1]);
-        let options =
-            ["diagram", "-q", "-o", "same.svg", "-s", &picture_size, "--drawing-size", &drawing_size];
+        let options = [
+            "diagram",
+            "-q",
+            "-o",
+            "same.svg",
+            "-s",
+            &picture_size,
+            "--drawing-size",
+            &drawing_size,
+            "--picture",
+            "whole.png",
+        ];
         let ran = run(&viewer.folder, &[&options[..], more].concat());
         assert_eq!(ran.code, 0, "{}", ran.stderr);
         assert!(
@@ -79,6 +95,55 @@ fn the_drawing_in_the_viewer_is_the_saved_one() {
     viewer.click_once("From above");
     viewer.rest();
     saved("the view from above", "lens-3.svg", &["--to-scale", "--view", "above"]);
+    viewer.close();
+}
+
+/// Catches pixels in the drawing that are not those of the picture, that stand at another place, or that stay as they were
+/// when the picture changes.
+#[test]
+fn the_drawing_shows_the_pixels_of_the_picture() {
+    let viewer = Viewer::start(SIZE, &QUICK);
+    viewer.wait_until_done();
+    viewer.click("Optics", |viewer| viewer.controls.borrow().contains_key("Pixel in the drawing"));
+    let size = format!("{}x{}", OPEN[0], OPEN[1]);
+    let expect = |pixel: [u16; 2], options: &[&str]| {
+        let [x, y] = pixel.map(usize::from);
+        viewer.wait_until_done();
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let picture = render_png(folder.path(), &[&["--size", &size], &QUICK[..], options].concat());
+        let picture = decode_png(&picture).1;
+        let [left, top, width, height] = viewer.controls.borrow()["Pixel in the drawing"];
+        assert!(width >= 6 && (width - height).abs() <= 1, "a pixel is {width} by {height}");
+        let mut colors = std::collections::BTreeSet::new();
+        // The pixel itself has a frame, and is looked at beside its middle, where no line is.
+        for (right, down) in (-2..=2_i32).flat_map(|right| (-2..=2_i32).map(move |down| (right, down))) {
+            let at = [left + width / 2 + right * width, top + height / 2 + down * height];
+            let shown = viewer.screen(at.map(|at| at as i16), [1, 1])[0];
+            let column = x.checked_add_signed(right as isize).expect("within the picture");
+            let row = y.checked_add_signed(down as isize).expect("within the picture");
+            let expected = picture[row * usize::from(OPEN[0]) + column];
+            assert_eq!(shown, expected, "{right} to the right of {x}, {down} below {y}");
+            colors.insert(shown);
+        }
+        assert!(colors.len() > 4, "only {colors:?}");
+    };
+    // The edge of the sphere.
+    expect([400, 200], &[]);
+    let place = EDGE.map(i32::from);
+    viewer.until(
+        "clicking",
+        |viewer| viewer.diagram.borrow().is_some_and(|(pixel, _)| pixel == place.map(|at| at as f32 + 0.5)),
+        || {
+            viewer.point([place[0] + i32::from(PANEL), place[1]]);
+            viewer.hands("click 1", 0);
+        },
+    );
+    viewer.point_away();
+    expect(EDGE, &[]);
+    let before = viewer.state.borrow()[0];
+    viewer.drag("Lens diameter", &[0.2, 0.15, 0.1], |viewer| viewer.state.borrow()[0] < 0.9 * before);
+    let diameter = viewer.state.borrow()[0].to_string();
+    expect(EDGE, &["--lens-diameter", &diameter]);
     viewer.close();
 }
 
@@ -249,7 +314,7 @@ fn parts_of_the_drawing_are_moved_by_hand() {
         viewer.click("Save drawing", |viewer| viewer.message.borrow().contains(file));
         let text = std::fs::read_to_string(viewer.folder.join(file)).expect("it is saved");
         let words = text.split(&format!(">{name}: ")).nth(1).unwrap_or_else(|| panic!("no {name} in {text}"));
-        words.split(' ').next().and_then(|depth| depth.parse().ok()).expect("a depth")
+        words.split([' ', '<']).next().and_then(|depth| depth.parse().ok()).expect("a depth")
     };
     let found = depth("lens.svg", "silver");
     drag([point_x, point_y], [(point_x + lens) / 2, point_y]);

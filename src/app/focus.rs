@@ -171,8 +171,8 @@ impl Focus {
             return None;
         }
         let pinned = drawn.map(|(pin, rays)| {
-            let at = |axis: usize| (pin.share[axis] * estimator.size[axis] as f32).floor() + 0.5;
-            Question { position: [at(0), at(1)], fan: rays, samples: rays }
+            let position = pin.pixel(estimator.size).map(|at| at as f32 + 0.5);
+            Question { position, fan: rays, samples: rays }
         });
         let pinned = pinned.filter(|question| {
             self.diagram.as_ref().is_none_or(|answer| !answer.answers(question, estimator))

@@ -3,7 +3,7 @@
 
 use crate::error::{Error, Result};
 use crate::output;
-use crate::renderer::{Pace, Picked, Prepared, Progress, Question, Renderer};
+use crate::renderer::{Excerpt, Pace, Picked, Prepared, Progress, Question, Renderer};
 use crate::settings::{DeviceChoice, Settings};
 use crate::vulkan::{
     Acquired, AcquiredImage, Commands, Device, FRAMES_IN_FLIGHT, Image, Instance, Surface, Swapchain,
@@ -15,6 +15,14 @@ use winit::window::Window;
 
 /// The answer to a question of [`Graphics::draw`]. It holds `None` if the scene has changed since the question.
 pub(super) struct Answer(pub(super) Option<Picked>);
+
+/// What a frame asks the device besides its picture.
+#[derive(Default)]
+pub(super) struct Wanted {
+    pub(super) question: Option<Question>,
+    /// The pixel around which the picture is wanted, and how far.
+    pub(super) excerpt: Option<([u32; 2], u32)>,
+}
 
 /// The order of the fields is the order in which they are dropped: imgui's renderer keeps raw handles of the device,
 /// and the surface must be dropped before the window.
@@ -29,6 +37,8 @@ pub(super) struct Graphics {
     next_frame: usize,
     /// For each frame in flight, whether it has a question to answer.
     asked: [bool; FRAMES_IN_FLIGHT],
+    /// The part of the picture that was read last.
+    excerpt: Option<Excerpt>,
     surface: Arc<Surface>,
     choice: DeviceChoice,
     device: Arc<Device>,
@@ -57,6 +67,7 @@ impl Graphics {
             frames: [Commands::new(&device)?, Commands::new(&device)?],
             next_frame: 0,
             asked: [false; FRAMES_IN_FLIGHT],
+            excerpt: None,
             surface: Arc::clone(surface),
             choice: choice.clone(),
             device,
@@ -214,6 +225,20 @@ impl Graphics {
         Ok(asked.then(|| Answer(renderer.picked(self.next_frame))))
     }
 
+    /// Takes the part of the picture that the next frame has read. Call [`Self::wait_for_frame`] first. Returns whether it
+    /// differs from the last one.
+    pub(super) fn take_excerpt(&mut self) -> bool {
+        let read = self.renderer.as_mut().and_then(|renderer| renderer.excerpt(self.next_frame));
+        let differs = read.is_some() && read != self.excerpt;
+        self.excerpt = read.or(self.excerpt.take());
+        differs
+    }
+
+    /// The part of the picture that was read last.
+    pub(super) fn excerpt(&self) -> Option<&Excerpt> {
+        self.excerpt.as_ref()
+    }
+
     /// The next image to draw to. `None` if the window has changed or is hidden.
     pub(super) fn acquire(&mut self) -> Result<Option<AcquiredImage>> {
         let Some(swapchain) = &mut self.swapchain else {
@@ -231,14 +256,14 @@ impl Graphics {
 
     /// Traces for as long as `pace` says, if it is given, and draws the picture and the panel to `image`. Call
     /// [`Self::wait_for_frame`] first. The picture is drawn with its upper left corner at `corner`, and the held picture
-    /// up to the column `split` of the picture. The answer to `question`
-    /// comes when the frame is done.
+    /// up to the column `split` of the picture. The answers to what is
+    /// `wanted` come when the frame is done.
     pub(super) fn draw(
         &mut self,
         image: &AcquiredImage,
         imgui: &mut imgui::Context,
         pace: Option<Pace>,
-        question: Option<Question>,
+        wanted: Wanted,
         corner: [u32; 2],
         split: u32,
     ) -> Result<()> {
@@ -255,8 +280,11 @@ impl Graphics {
                 renderer.record(&mut recording, frame, pace);
             }
             renderer.record_resolve(&mut recording);
-            if let Some(question) = question {
+            if let Some(question) = wanted.question {
                 self.asked[frame] = renderer.record_pick(&mut recording, frame, question);
+            }
+            if let Some((middle, reach)) = wanted.excerpt {
+                renderer.record_excerpt(&mut recording, frame, middle, reach)?;
             }
         }
 

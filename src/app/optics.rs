@@ -18,6 +18,8 @@ pub(super) struct Optics {
     pub(super) pin: Pin,
     /// The depths of further points whose light is drawn.
     pub(super) kept: [Option<f64>; KEPT],
+    /// How far from the pixel the drawing shows the picture, in pixels.
+    pub(super) reach: u32,
     /// The part of the drawing that is being moved.
     pub(super) held: Option<HeldPart>,
     /// The height of the strip below the picture in points, as the user has set it.
@@ -49,6 +51,13 @@ pub(super) struct HeldPart {
     pub(super) mm_per_distance: f64,
 }
 
+impl Pin {
+    /// The column and the row of the pixel in a picture of this size.
+    pub(super) fn pixel(&self, size: [u32; 2]) -> [u32; 2] {
+        [0, 1].map(|axis| (self.share[axis] * size[axis] as f32).floor() as u32)
+    }
+}
+
 impl Optics {
     /// Draws the light of the point that the picture shows, and of no other one.
     pub(super) fn forget_points(&mut self) {
@@ -65,6 +74,7 @@ impl Default for Optics {
             to_scale: false,
             pin: Pin { share: [0.5; 2], depth: None },
             kept: [None; KEPT],
+            reach: 0,
             held: None,
             height: STRIP,
         }

@@ -187,6 +187,9 @@ pub struct DiagramArgs {
     /// white in focus, orange behind it. At most two
     #[arg(long, value_name = "L,L", value_delimiter = ',', allow_negative_numbers = true)]
     pub also_at: Vec<f64>,
+    /// A rendered picture of the same size, as PNG, whose pixels are drawn beside the circle of confusion
+    #[arg(long, value_name = "FILE.png")]
+    pub picture: Option<PathBuf>,
     /// The number of rays through the lens
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 9)]
     pub rays: u32,

@@ -79,7 +79,7 @@ impl Paper {
 
     /// Names things in a line, each near its place.
     fn row(&mut self, y: f32, names: &[([f64; 2], Role, &str)]) {
-        let names = names.iter().map(|(at, role, name)| Name::new(self.place(*at)[0], *role, *name, *name));
+        let names = names.iter().map(|(at, role, name)| Name::new(self.place(*at)[0], *role, [*name]));
         self.pane.row(y, names.collect());
     }
 

@@ -43,7 +43,12 @@ impl Handle {
 
 /// What can be moved in a section that is drawn between these heights. Where two parts lie on each other, the first one
 /// in the list is meant.
-pub(super) fn handles(diagram: &Diagram, look: &Look, scale: &Scale, [top, bottom]: [f32; 2]) -> Vec<Handle> {
+pub(super) fn handles(
+    diagram: &Diagram,
+    look: &Look<'_>,
+    scale: &Scale,
+    [top, bottom]: [f32; 2],
+) -> Vec<Handle> {
     let upright = |part, x: f32| Handle { part, line: [[x, top], [x, bottom]] };
     let point = diagram.hit.map(|hit| Handle { part: Part::Point, line: [scale.place(hit); 2] });
     let [x, y] = scale.lens;

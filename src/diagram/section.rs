@@ -45,7 +45,7 @@ impl Scale {
     }
 
     /// Chooses the scale such that the drawing fills this rectangle.
-    fn new(diagram: &Diagram, others: &[Diagram], look: &Look, min: Point, max: Point) -> Self {
+    fn new(diagram: &Diagram, others: &[Diagram], look: &Look<'_>, min: Point, max: Point) -> Self {
         let [width, height] = [0, 1].map(|axis| f64::from((max[axis] - min[axis]).max(1.0)));
         let all = || others.iter().chain([diagram]);
         let front = all().map(|of| of.reach).fold(0.0, f64::max);
@@ -160,7 +160,7 @@ fn light(diagram: &Diagram, above: bool) -> Vec<Line> {
 pub(super) fn draw(
     diagram: &Diagram,
     others: &[Diagram],
-    look: &Look,
+    look: &Look<'_>,
     [right, end]: Point,
 ) -> ([Pane; 3], Scale) {
     let top = MARGIN + LINE;
@@ -179,7 +179,7 @@ pub(super) fn draw(
 
     let meets = meeting(diagram).zip(image.crossing);
     let mut names_below: Vec<Name> = meets
-        .map(|(name, crossing)| Name::new(within(-crossing), Role::Blur, name, "light meets here"))
+        .map(|(name, crossing)| Name::new(within(-crossing), Role::Blur, [name, "light meets here".into()]))
         .into_iter()
         .collect();
     if let Some([near, far]) = look.sharp {
@@ -187,10 +187,10 @@ pub(super) fn draw(
         pane.rectangle([band[0], top], [band[1], bottom], Role::Sharp);
         let far = if far.is_finite() { digits(far, 3) } else { "infinity".into() };
         let name = format!("sharp from {} to {far}", digits(near, 3));
-        names_below.push(Name::new(0.5 * (band[0] + band[1]), Role::SharpName, name, "sharp"));
+        names_below.push(Name::new(0.5 * (band[0] + band[1]), Role::SharpName, [name, "sharp".into()]));
     }
     below.row(bottom + 0.5 * LINE, names_below);
-    below.row(bottom + 1.5 * LINE, vec![Name::new(0.0, Role::Faint, scale.words(), "magnified")]);
+    below.row(bottom + 1.5 * LINE, vec![Name::new(0.0, Role::Faint, [scale.words(), "magnified".into()])]);
 
     pane.line([0.0, scale.lens[1]], [right, scale.lens[1]], Role::Frame, 1.0);
     pane.line([film, top], [film, bottom], Role::Film, 2.0);
@@ -212,22 +212,28 @@ pub(super) fn draw(
     ([above, pane, below], scale)
 }
 
-/// The names above the section. Where there is not room for all that they say, film and lens keep their bare names.
+/// The names above the section. Where there is little room, film and lens keep their bare names, and depths are numbers in
+/// the colours of their points.
 fn names(diagram: &Diagram, others: &[Diagram], scale: &Scale, right: f32) -> Vec<Name> {
     let within = |depth: f64| scale.x(depth).clamp(0.0, right);
     let film_distance = diagram.image.film_distance;
-    let behind = format!("film, {} behind", millimetres(film_distance * diagram.mm_per_unit));
+    let film = format!("film, {}", millimetres(film_distance * diagram.mm_per_unit));
     let (opening, wide) = opening_name(diagram);
+    let opening_texts = match wide {
+        Some(wide) => vec![format!("{opening}, {wide} wide"), format!("{opening}, {wide}"), opening.into()],
+        None => vec![opening.into()],
+    };
     let mut names = vec![
-        Name::new(within(-film_distance), Role::Film, behind, "film"),
-        Name::new(scale.lens[0], Role::Glass, format!("{opening}{wide}"), opening),
+        Name::new(within(-film_distance), Role::Film, [format!("{film} behind"), film, "film".into()]),
+        Name::new(scale.lens[0], Role::Glass, opening_texts),
     ];
     if let Some((focal_distance, _)) = diagram.focus {
         let is_shown = scale.x(focal_distance) <= right;
         let name = if is_shown { "focal plane" } else { "focal plane, farther away" };
         let whole = format!("{name}: {}", depth(diagram, focal_distance));
-        let short = format!("focal plane: {}", digits(focal_distance, 3));
-        names.push(Name::new(within(focal_distance), Role::Focus, whole, short));
+        let number = digits(focal_distance, 3);
+        let texts = [whole, format!("focal plane: {number}"), number];
+        names.push(Name::new(within(focal_distance), Role::Focus, texts));
     }
     if let Some(hit) = diagram.hit {
         let name = match diagram.material.as_str() {
@@ -235,19 +241,20 @@ fn names(diagram: &Diagram, others: &[Diagram], scale: &Scale, right: f32) -> Ve
             "" => "object",
             material => material,
         };
-        let (whole, short) = (depth(diagram, hit.z), digits(hit.z, 3));
+        let (whole, number) = (depth(diagram, hit.z), digits(hit.z, 3));
+        let texts = [format!("{name}: {whole}"), format!("{name}: {number}"), number];
         let role = diagram.light_role(others.is_empty());
-        names.push(Name::new(within(hit.z), role, format!("{name}: {whole}"), format!("{name}: {short}")));
+        names.push(Name::new(within(hit.z), role, texts));
     }
     for (other, hit) in others.iter().filter_map(|other| other.hit.map(|hit| (other, hit))) {
-        let short = format!("kept: {}", digits(hit.z, 3));
-        let whole = format!("{short}, {}", pixels(other.image.blur_pixels));
-        names.push(Name::new(within(hit.z), other.light_role(false), whole, short));
+        let (number, blur) = (digits(hit.z, 3), pixels(other.image.blur_pixels));
+        let texts = [format!("kept: {number}, {blur}"), format!("kept: {number}"), number];
+        names.push(Name::new(within(hit.z), other.light_role(false), texts));
     }
     names
 }
 
-fn objects(pane: &mut Pane, diagram: &Diagram, look: &Look, scale: &Scale) {
+fn objects(pane: &mut Pane, diagram: &Diagram, look: &Look<'_>, scale: &Scale) {
     let outlines = if look.above() { &diagram.outlines_across } else { &diagram.outlines_up };
     for outline in outlines {
         let points: Vec<Point> =
@@ -261,7 +268,7 @@ fn objects(pane: &mut Pane, diagram: &Diagram, look: &Look, scale: &Scale) {
     }
 }
 
-fn rays(pane: &mut Pane, diagram: &Diagram, is_alone: bool, look: &Look, scale: &Scale) {
+fn rays(pane: &mut Pane, diagram: &Diagram, is_alone: bool, look: &Look<'_>, scale: &Scale) {
     let fan = fan(diagram, look.above());
     let mut line = |[from, to]: Line, role: Role| pane.line(scale.place(from), scale.place(to), role, 1.0);
     for ray in &fan {
@@ -275,7 +282,7 @@ fn rays(pane: &mut Pane, diagram: &Diagram, is_alone: bool, look: &Look, scale: 
 }
 
 /// Draws the light of the point on both sides of the lens.
-fn lit(pane: &mut Pane, diagram: &Diagram, role: Role, look: &Look, scale: &Scale) {
+fn lit(pane: &mut Pane, diagram: &Diagram, role: Role, look: &Look<'_>, scale: &Scale) {
     let Some(hit) = diagram.hit else {
         return;
     };
@@ -286,7 +293,7 @@ fn lit(pane: &mut Pane, diagram: &Diagram, role: Role, look: &Look, scale: &Scal
 }
 
 /// Draws the lens, or the hole, and the wall around it.
-fn opening(pane: &mut Pane, diagram: &Diagram, look: &Look, scale: &Scale, [top, bottom]: [f32; 2]) {
+fn opening(pane: &mut Pane, diagram: &Diagram, look: &Look<'_>, scale: &Scale, [top, bottom]: [f32; 2]) {
     let [x, y] = scale.lens;
     let half = (diagram.half_aperture[usize::from(!look.above())] * scale.fan) as f32;
     if diagram.model == CameraModel::ThinLens && half > 0.0 {
@@ -308,20 +315,20 @@ fn opening(pane: &mut Pane, diagram: &Diagram, look: &Look, scale: &Scale, [top,
     }
 }
 
-/// The name of the lens or the hole, and what it is followed by: how wide it is.
-fn opening_name(diagram: &Diagram) -> (&'static str, String) {
+/// The name of the lens or the hole, and how wide it is.
+fn opening_name(diagram: &Diagram) -> (&'static str, Option<String>) {
     let wide = diagram.half_aperture.map(|half| 2.0 * half * diagram.mm_per_unit);
-    let wide = format!(", {} wide", millimetres(wide[0].max(wide[1])));
+    let wide = Some(millimetres(wide[0].max(wide[1])));
     match diagram.model {
-        CameraModel::Pinhole => ("ideal pinhole", String::new()),
+        CameraModel::Pinhole => ("ideal pinhole", None),
         CameraModel::Hole => ("hole", wide),
-        CameraModel::ThinLens if diagram.half_aperture == [0.0; 2] => ("pinhole", String::new()),
+        CameraModel::ThinLens if diagram.half_aperture == [0.0; 2] => ("pinhole", None),
         CameraModel::ThinLens => ("lens", wide),
     }
 }
 
 /// Marks the object's point, and in the second colour the place where light meets, and the blur on the film.
-fn marks(pane: &mut Pane, diagram: &Diagram, [role, on_film]: [Role; 2], look: &Look, scale: &Scale) {
+fn marks(pane: &mut Pane, diagram: &Diagram, [role, on_film]: [Role; 2], look: &Look<'_>, scale: &Scale) {
     let image = &diagram.image;
     if let Some((_, p)) = diagram.focus {
         pane.dot(scale.place(p), 3.0, Role::Focus);

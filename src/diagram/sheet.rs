@@ -66,6 +66,8 @@ pub enum Role {
     Pixel,
     /// The edges of the pixels.
     Grid,
+    /// A pixel of the rendered picture, in its colour.
+    Shown([u8; 3]),
     /// The outline of an object of this colour.
     Object([f32; 3]),
     /// The inside of an object of this colour.
@@ -104,6 +106,10 @@ impl Role {
             Self::BlurInside(light) => [1.0, 0.36, 0.42, 0.60 * light.clamp(0.0, 1.0)],
             Self::Pixel => [1.0, 1.0, 1.0, 0.16],
             Self::Grid => [0.45, 0.48, 0.54, 0.55],
+            Self::Shown(color) => {
+                let [red, green, blue] = color.map(|level| f32::from(level) / 255.0);
+                [red, green, blue, 1.0]
+            }
             Self::Object([red, green, blue]) => [red, green, blue, 0.9],
             Self::ObjectInside([red, green, blue]) => [red, green, blue, 0.25],
         }
@@ -155,6 +161,15 @@ pub enum Shape {
         /// What it stands for.
         role: Role,
     },
+    /// The inside of a rectangle, with hard edges, so that nothing shows between two of them.
+    Square {
+        /// The upper left corner.
+        min: Point,
+        /// The lower right corner.
+        max: Point,
+        /// What it stands for.
+        role: Role,
+    },
     /// A dot.
     Dot {
         /// Its middle.
@@ -194,15 +209,13 @@ pub(super) struct Name {
     pub(super) x: f32,
     /// What it names.
     pub(super) role: Role,
-    /// The whole name.
-    pub(super) text: String,
-    /// What is written where there is not room for the whole name.
-    pub(super) short: String,
+    /// The whole name, and what is written where there is not room for it: each one shorter than the one before.
+    pub(super) texts: Vec<String>,
 }
 
 impl Name {
-    pub(super) fn new(x: f32, role: Role, text: impl Into<String>, short: impl Into<String>) -> Self {
-        Self { x, role, text: text.into(), short: short.into() }
+    pub(super) fn new(x: f32, role: Role, texts: impl IntoIterator<Item = impl Into<String>>) -> Self {
+        Self { x, role, texts: texts.into_iter().map(Into::into).collect() }
     }
 }
 
@@ -235,6 +248,10 @@ impl Pane {
 
     pub(super) fn rectangle(&mut self, from: Point, to: Point, role: Role) {
         self.area(vec![from, [to[0], from[1]], to, [from[0], to[1]]], role);
+    }
+
+    pub(super) fn square(&mut self, min: Point, max: Point, role: Role) {
+        self.shapes.push(Shape::Square { min, max, role });
     }
 
     pub(super) fn dot(&mut self, at: Point, radius: f32, role: Role) {
@@ -278,35 +295,36 @@ impl Pane {
     }
 
     /// Writes names in a row, each as near as possible to its place, and none over another one. If there is not room
-    /// for all of them, the first ones in the list are shortened, and after that the last ones are left out.
+    /// for all of them, they are shortened, the first one in the list first. If that is not enough, the last ones are left
+    /// out.
     pub(super) fn row(&mut self, y: f32, mut names: Vec<Name>) {
         let (left, right) = (self.min[0] + MARGIN, self.max[0] - MARGIN);
         let is_too_wide = |names: &[Name]| {
-            let needed = names.iter().map(|name| text_width(&name.text) + APART).sum::<f32>() - APART;
+            let needed = names.iter().map(|name| text_width(&name.texts[0]) + APART).sum::<f32>() - APART;
             needed > right - left
         };
-        let mut shortened = 0;
-        while shortened < names.len() && is_too_wide(&names) {
-            names[shortened].text = std::mem::take(&mut names[shortened].short);
-            shortened += 1;
-        }
-        while !names.is_empty() && is_too_wide(&names) {
-            names.pop();
+        while is_too_wide(&names) {
+            // The one that has been shortened least: of several, the first one.
+            match (0..names.len()).rev().max_by_key(|number| names[*number].texts.len()) {
+                Some(number) if names[number].texts.len() > 1 => drop(names[number].texts.remove(0)),
+                Some(_) => drop(names.pop()),
+                None => return,
+            }
         }
         names.sort_by(|a, b| a.x.total_cmp(&b.x));
         let mut starts = Vec::new();
         let mut free = left;
         for name in &names {
-            let width = text_width(&name.text);
+            let width = text_width(&name.texts[0]);
             let start = (name.x - 0.5 * width).max(free);
             starts.push(start);
             free = start + width + APART;
         }
         let mut end = right;
         for (name, start) in names.into_iter().zip(starts).rev() {
-            let start = start.min(end - text_width(&name.text));
+            let start = start.min(end - text_width(&name.texts[0]));
             end = start - APART;
-            self.text([start, y], Anchor::Start, name.role, name.text);
+            self.text([start, y], Anchor::Start, name.role, name.texts[0].clone());
         }
     }
 }

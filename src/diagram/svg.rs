@@ -58,6 +58,16 @@ fn write_shape(out: &mut String, shape: &Shape) {
             let (points, fill) = (listed(corners), paint("fill", *role));
             line(out, format_args!("<polygon points=\"{points}\"{fill}/>"));
         }
+        Shape::Square { min: [x, y], max, role } => {
+            let ([width, height], fill) = ([max[0] - x, max[1] - y], paint("fill", *role));
+            line(
+                out,
+                format_args!(
+                    "<rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{width:.2}\" height=\"{height:.2}\" \
+                     shape-rendering=\"crispEdges\"{fill}/>"
+                ),
+            );
+        }
         Shape::Dot { at: [x, y], radius, role } => {
             let fill = paint("fill", *role);
             line(out, format_args!("<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius}\"{fill}/>"));

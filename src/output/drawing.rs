@@ -4,10 +4,13 @@ use super::headless::position;
 use super::say;
 use crate::diagram::{self, Diagram, KEPT, Look, View, sharp_depths};
 use crate::error::{Error, Result};
+use crate::input_file;
 use crate::pending_file::{PendingFile, keep_apart};
-use crate::renderer::{Question, Renderer};
+use crate::renderer::{Excerpt, Question, Renderer};
 use crate::settings::{DeviceChoice, Place, Settings};
 use crate::vulkan::{Device, Instance};
+use std::fs::File;
+use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -33,6 +36,8 @@ pub struct DrawingJob {
     pub view: View,
     /// The depths of further points on the same ray whose light is drawn too.
     pub kept: Vec<f64>,
+    /// The rendered picture whose pixels are drawn beside the circle of confusion: a PNG.
+    pub picture: Option<PathBuf>,
     /// Whether depths and heights have the same scale everywhere.
     pub to_scale: bool,
     /// The SVG file.
@@ -69,7 +74,9 @@ pub fn draw_optics(job: &DrawingJob) -> Result<()> {
         let [least, most] = DEPTHS;
         return Err(Error::OutOfRange(format!("--also-at is {depth}, but must be from {least} to {most}")));
     }
-    keep_apart(&[("the drawing", &job.output)], &job.settings.files())?;
+    let mut read = job.settings.files();
+    read.extend(job.picture.as_deref().map(|picture| ("the picture", picture)));
+    keep_apart(&[("the drawing", &job.output)], &read)?;
     let instance = Instance::new(job.device.validation, None)?;
     draw_on(&instance, job)?;
     instance.check_validation()
@@ -101,17 +108,58 @@ fn draw_on(instance: &Arc<Instance>, job: &DrawingJob) -> Result<()> {
     let question = Question { position, fan: job.rays, samples: job.rays };
     let picked = renderer.pick(question)?.expect("a renderer without a window answers at once");
     let diagram = Diagram::new(&job.settings.estimator, &picked);
-    let look = Look {
+    let mut look = Look {
         size: job.size.map(|extent| extent as f32),
         view: job.view,
         to_scale: job.to_scale,
         sharp: sharp_depths(&job.settings),
         kept: [0, 1].map(|number| job.kept.get(number).copied()),
+        picture: None,
         scale: None,
     };
+    let picture =
+        job.picture.as_deref().map(|file| read_picture(file, job.settings.estimator.size)).transpose()?;
+    let excerpt = picture.map(|pixels| {
+        let reach = diagram::draw(&diagram, &look).reach;
+        Excerpt::of(&pixels, job.settings.estimator.size, position.map(|at| at as u32), reach)
+    });
+    look.picture = excerpt.as_ref();
     save_drawing(&diagram::draw(&diagram, &look), &job.output)?;
     if !job.quiet {
         say(&format!("{}: {}", job.output.display(), diagram::sentence(&diagram)))?;
     }
     Ok(())
+}
+
+/// Reads the pixels of a PNG, which must have this size.
+fn read_picture(path: &Path, size: [u32; 2]) -> Result<Vec<[u8; 3]>> {
+    let wrong = |why: String| {
+        Error::OutOfRange(format!(
+            "--picture {}: {why}; it must be a PNG that thinlens has saved",
+            path.display()
+        ))
+    };
+    let file = input_file::open(path)?;
+    let decoded = input_file::guarded(|| decode(file, size));
+    decoded.unwrap_or_else(|| Err("it is damaged".into())).map_err(wrong)
+}
+
+fn decode(file: File, [width, height]: [u32; 2]) -> std::result::Result<Vec<[u8; 3]>, String> {
+    let unreadable = |error: png::DecodingError| format!("it cannot be read ({error})");
+    let mut reader = png::Decoder::new(BufReader::new(file)).read_info().map_err(unreadable)?;
+    let info = reader.info();
+    if [info.width, info.height] != [width, height] {
+        return Err(format!(
+            "it has {}x{} pixels, but the drawing is of a picture with {width}x{height} pixels",
+            info.width, info.height
+        ));
+    }
+    if (info.color_type, info.bit_depth) != (png::ColorType::Rgb, png::BitDepth::Eight) {
+        return Err("its pixels are not red, green and blue in 8 bits each".into());
+    }
+    let mut pixels = Vec::with_capacity(width as usize * height as usize);
+    while let Some(row) = reader.next_row().map_err(unreadable)? {
+        pixels.extend(row.data().chunks_exact(3).map(|pixel| [pixel[0], pixel[1], pixel[2]]));
+    }
+    Ok(pixels)
 }

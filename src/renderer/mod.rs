@@ -7,6 +7,7 @@
 //! [`Prepared`] holds the parts that settings need, and can be made on any thread. `Loaded` adds the images and the
 //! bindings. [`Renderer`] records the passes.
 
+mod excerpt;
 mod film;
 mod headless;
 mod loaded;
@@ -17,6 +18,7 @@ pub mod schedule;
 mod tally;
 mod tiles;
 
+pub use excerpt::Excerpt;
 pub use pick::{LensRay, Picked, Question, Surface};
 pub use prepared::{Keys, Prepared, Preparer};
 pub use tally::Progress;
@@ -26,6 +28,7 @@ use crate::gpu_types::ResolvePush;
 use crate::passes::Shaders;
 use crate::settings::Settings;
 use crate::vulkan::{Device, Image};
+use excerpt::Excerpts;
 use loaded::Loaded;
 use schedule::{Cursor, MAX_BATCH, Stage};
 use std::sync::Arc;
@@ -49,6 +52,7 @@ pub struct Renderer {
     settings: Settings,
     standing: Standing,
     tally: Tally,
+    excerpts: Excerpts,
     blue_first: bool,
     max_batch: u32,
     /// The largest batch that the loops of the scene allow on this device.
@@ -101,6 +105,7 @@ impl Renderer {
             settings: settings.clone(),
             standing: Standing::START,
             tally,
+            excerpts: Excerpts::default(),
             blue_first: false,
             max_batch: MAX_BATCH,
         })

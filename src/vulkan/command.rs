@@ -230,14 +230,20 @@ impl Recording<'_> {
 
     /// Copies `count` rows of an image's pixels, from the row `first` on, to the start of a buffer.
     pub fn copy_rows(&mut self, from: &Image, first: u32, count: u32, to: &Buffer) {
-        let [width, height] = [from.extent()[0], count];
-        let offset = vk::Offset3D { x: 0, y: i32::try_from(first).unwrap_or(i32::MAX), z: 0 };
+        self.copy_part(from, [0, first], [from.extent()[0], count], to);
+    }
+
+    /// Copies a part of an image, with this upper left pixel and this size, to the start of a buffer, row by row without
+    /// padding.
+    pub fn copy_part(&mut self, from: &Image, corner: [u32; 2], [width, height]: [u32; 2], to: &Buffer) {
+        let [x, y] = corner.map(|at| i32::try_from(at).unwrap_or(i32::MAX));
+        let offset = vk::Offset3D { x, y, z: 0 };
         let region = [vk::BufferImageCopy::default()
             .image_subresource(LAYER)
             .image_offset(offset)
             .image_extent(vk::Extent3D { width, height, depth: 1 })];
-        // SAFETY: recording is under way, the image is in GENERAL, and callers give a buffer of at
-        // least `from.byte_len()` bytes.
+        // SAFETY: recording is under way, the image is in GENERAL, and callers give a part that lies within it and a
+        // buffer that the part fits into.
         unsafe {
             self.device().raw.cmd_copy_image_to_buffer(
                 self.raw(),

@@ -43,6 +43,9 @@ fn paint_shape(list: &DrawListMut<'_>, shape: &Shape, at: impl Fn(Point) -> Poin
         Shape::Area { corners, role } => {
             list.add_polyline(placed(corners), role.color()).filled(true).build();
         }
+        Shape::Square { min, max, role } => {
+            list.add_rect(at(*min), at(*max), role.color()).filled(true).build();
+        }
         Shape::Dot { at: middle, radius, role } => {
             list.add_circle(at(*middle), *radius, role.color()).filled(true).build();
         }

@@ -25,10 +25,11 @@ use super::message::Offer;
 use super::panel::{Panel, builtin};
 use super::telemetry;
 use crate::diagram::{Diagram, sharp_depths};
-use crate::renderer::{Picked, Progress};
+use crate::renderer::{Excerpt, Picked, Progress};
 use crate::scene::CameraModel;
 use crate::settings::Part;
 use imgui::{Condition, StyleColor, StyleVar, Ui, WindowFlags};
+use optics::Seen;
 use widgets::{
     Folds, LONGEST, Layout, Side, button, combo, edge, from_end, note_item, pressed, section, tick, tooltip,
 };
@@ -50,6 +51,8 @@ pub(super) struct Status<'a> {
     pub(super) picked: Option<&'a Picked>,
     /// The optics of the pixel that was clicked last.
     pub(super) diagram: Option<&'a Diagram>,
+    /// The picture around that pixel.
+    pub(super) excerpt: Option<&'a Excerpt>,
     /// What another thread is loading, if anything.
     pub(super) loading: Option<String>,
 }
@@ -130,7 +133,8 @@ impl Panel {
             let sharp = sharp_depths(&self.settings);
             let estimator = &mut self.settings.estimator;
             let before = (estimator.camera, estimator.lens);
-            let saved = self.optics.draw(ui, status.diagram, sharp, room, estimator, &mut layout);
+            let seen = Seen { diagram: status.diagram, excerpt: status.excerpt, sharp };
+            let saved = self.optics.draw(ui, seen, room, estimator, &mut layout);
             self.zoom_lock.follow(Part::Top, before, estimator);
             match saved {
                 Some(Ok(file)) => self.messages.say(format!("saved {}", file.display())),

@@ -3,13 +3,14 @@
 use super::BACKGROUND;
 use super::drawing::paint;
 use super::grasp::note_handles;
-use super::widgets::{Layout, Side, button, edge, note_item, note_window, tooltip};
+use super::widgets::{Layout, Side, button, edge, note, note_item, note_window, tooltip};
 use crate::app::area::Area;
 use crate::app::optics::Optics;
 use crate::app::save_as::{absolute, unused_name};
 use crate::diagram::{self, Diagram, KEPT, Look, VIEWS};
 use crate::error::Result;
 use crate::output;
+use crate::renderer::Excerpt;
 use crate::settings::Estimator;
 use imgui::{Condition, StyleColor, StyleVar, Ui, WindowFlags};
 use std::path::{Path, PathBuf};
@@ -18,13 +19,22 @@ use std::path::{Path, PathBuf};
 const FILE: &str = "lens.svg";
 /// The smallest and the largest number of rays.
 const RAYS: [u32; 2] = [3, 65];
+/// What the drawing shows.
+pub(super) struct Seen<'a> {
+    /// The optics of the pixel.
+    pub(super) diagram: Option<&'a Diagram>,
+    /// The picture around the pixel.
+    pub(super) excerpt: Option<&'a Excerpt>,
+    /// The depths between which everything is sharp, for a lens.
+    pub(super) sharp: Option<[f64; 2]>,
+}
+
 impl Optics {
     /// Draws the strip below the picture, if it is open. Returns the file that the drawing was saved to.
     pub(super) fn draw(
         &mut self,
         ui: &Ui,
-        diagram: Option<&Diagram>,
-        sharp: Option<[f64; 2]>,
+        Seen { diagram, excerpt, sharp }: Seen<'_>,
         area: &Area,
         estimator: &mut Estimator,
         layout: &mut Layout,
@@ -79,13 +89,19 @@ impl Optics {
                             to_scale: self.to_scale,
                             sharp,
                             kept: self.kept,
+                            picture: excerpt,
                             scale: self.held.map(|held| held.scale),
                         };
                         let corner = ui.cursor_screen_pos();
                         let drawing = diagram::draw(diagram, &look);
+                        self.reach = drawing.reach;
                         paint(ui, &drawing);
                         self.take_hold(ui, diagram, &drawing, corner, estimator);
                         note_handles(ui, &drawing, corner, layout);
+                        if let Some([min, max]) = drawing.middle_pixel {
+                            let at = [0, 1].map(|axis| corner[axis] + min[axis]);
+                            note(ui, "Pixel in the drawing", at, [max[0] - min[0], max[1] - min[1]], layout);
+                        }
                         if saves {
                             let file = absolute(Path::new(&unused_name(FILE)));
                             saved = Some(output::save_drawing(&drawing, &file).map(|()| file));

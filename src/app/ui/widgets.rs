@@ -147,7 +147,8 @@ pub(super) fn note_window(ui: &Ui, name: &'static str, layout: &mut Layout) {
     note(ui, name, ui.window_pos(), ui.window_size(), layout);
 }
 
-fn note(ui: &Ui, name: &'static str, min: [f32; 2], size: [f32; 2], layout: &mut Layout) {
+/// Notes where something was drawn, whose place is given in points.
+pub(super) fn note(ui: &Ui, name: &'static str, min: [f32; 2], size: [f32; 2], layout: &mut Layout) {
     let scale = ui.io().display_framebuffer_scale;
     let pixels = |value: f32, axis: usize| (value * scale[axis]).round() as i32;
     layout.push((name, [pixels(min[0], 0), pixels(min[1], 1), pixels(size[0], 0), pixels(size[1], 1)]));

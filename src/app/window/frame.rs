@@ -2,7 +2,7 @@
 
 use super::super::area::Area;
 use super::super::focus::Focus;
-use super::super::graphics::Answer;
+use super::super::graphics::{Answer, Wanted};
 use super::super::lesson::Lesson;
 use super::super::loader::{Loader, Ready};
 use super::super::message::{Kind, Offer};
@@ -55,6 +55,10 @@ impl OpenWindow {
         log::trace!("{}", telemetry::FRAME);
         self.frames_to_draw = self.frames_to_draw.saturating_sub(1);
         let answer = self.graphics.wait_for_frame(self.dragging)?;
+        if self.graphics.take_excerpt() {
+            // This frame shows it, and the next one may read another one.
+            self.frames_to_draw = self.frames_to_draw.max(FRAMES_AFTER_EVENT);
+        }
         if let Some(Answer(picked)) = answer {
             match self.focus.answer(picked, &mut self.panel) {
                 Some(Ok(said)) => self.panel.messages.say(said),
@@ -96,6 +100,7 @@ impl OpenWindow {
             device: self.graphics.device_name(),
             picked: self.focus.under_pointer(),
             diagram: self.focus.diagram(),
+            excerpt: self.graphics.excerpt(),
             loading: self
                 .loader
                 .loading()
@@ -224,7 +229,10 @@ impl OpenWindow {
         let can_ask = self.graphics.answers();
         let question = if can_ask { self.focus.question(&self.panel.shown().estimator, drawn) } else { None };
         let split = self.panel.held.as_ref().map_or(0.0, |held| held.share * area.pixels[0] as f32);
-        self.graphics.draw(image, &mut self.imgui, pace, question, area.corner, split.round() as u32)?;
+        let excerpt =
+            (optics.open && optics.view.is_section()).then(|| (optics.pin.pixel(area.pixels), optics.reach));
+        let wanted = Wanted { question, excerpt };
+        self.graphics.draw(image, &mut self.imgui, pace, wanted, area.corner, split.round() as u32)?;
         if self.focus.is_busy() || self.navigate.is_moving() {
             self.frames_to_draw = self.frames_to_draw.max(1);
         }
