@@ -51,9 +51,9 @@ pub fn on_device(settings: &Settings) -> u32 {
     let (scene, shutter) = (&settings.estimator.scene, settings.estimator.shutter);
     let data = SceneData::new(scene, shutter);
     assert!(
-        data.environment.bounding_radius.is_finite(),
+        data.colors.environment.bounding_radius.is_finite(),
         "the scene reaches {}",
-        data.environment.bounding_radius
+        data.colors.environment.bounding_radius
     );
     let depth = if data.tree_depth > 0 {
         data.tree_depth

@@ -166,7 +166,7 @@ fn changed(scene: &SceneRef, random: &mut fastrand::Rng) -> Settings {
     let mut settings = Settings::of_scene(scene.clone());
     let plain = settings.clone();
     // The cat's eye is a shape of its own, beside which there are no blades.
-    for setting in list::own().filter(|setting| setting.flag != "cats-eye") {
+    for setting in list::own().filter(|setting| setting.flag != "cats-eye" && !setting.is_of_model()) {
         let slider = setting.row.as_ref().and_then(|row| match &row.widget {
             Widget::Slider(slider) => Some((slider.range)(&plain).map(f64::from)),
             _ => None,
@@ -183,7 +183,7 @@ fn changed(scene: &SceneRef, random: &mut fastrand::Rng) -> Settings {
                 Value::Whole(part(range.map(f64::from), 1e6) as u32)
             }
             Access::Switch(_) => Value::Switch(random.bool()),
-            Access::Vector(_, range) => {
+            Access::Vector(_, range) | Access::Color(_, range) => {
                 Value::Vector(glam::DVec3::from_array([(); 3].map(|()| part(*range, 9.0))))
             }
             Access::Size(..) => Value::Size([random.u32(1..999), random.u32(1..999)]),

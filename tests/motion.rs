@@ -8,6 +8,7 @@ use common::statistics::evenness_p;
 use common::{Gpu, decode_png, pixels, prove, render, render_png, scene_of, settings_of};
 use glam::Vec3;
 use std::fmt::Write as _;
+use std::sync::Arc;
 use thinlens::reference::sampler;
 use thinlens::scene::{CameraModel, SceneRef};
 use thinlens::settings::{Sampler, Settings};
@@ -20,7 +21,7 @@ fn everything_moves() -> Settings {
         let [x, y, z, _] = sampler::sample_values(Sampler::Random, 3, [i as u32, 0], 0, 0);
         Vec3::new(x as f32, y as f32, z as f32) - 0.5
     };
-    let bounded = scene.shapes.iter_mut().filter(|of| of.shape.is_bounded());
+    let bounded = Arc::make_mut(&mut scene.shapes).iter_mut().filter(|of| of.shape.is_bounded());
     (0..).zip(bounded).for_each(|(i, of)| of.velocity = 20.0 * velocity(i));
     scene.shutter = 0.05;
     let mut settings = Settings::of_scene(SceneRef::new(scene));

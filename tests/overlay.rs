@@ -6,6 +6,7 @@ use anyhow::{Result, ensure};
 use common::scenes::EVERYTHING;
 use common::{Gpu, circle_of_confusion, pixels, plain_scene_of, prove, small};
 use glam::DVec3;
+use std::sync::Arc;
 use thinlens::reference::{Reference, tone};
 use thinlens::renderer::Renderer;
 use thinlens::scene::{CameraModel, Hole, Overlay, SceneRef, Shape, Tolerance};
@@ -24,7 +25,7 @@ fn surfaces(settings: &Settings) -> Vec<(f64, DVec3)> {
 /// The scene [`EVERYTHING`], with normals at the corners of its triangles that are not their own.
 fn everything_smooth() -> SceneRef {
     let mut scene = plain_scene_of(EVERYTHING);
-    for of in &mut scene.shapes {
+    for of in Arc::make_mut(&mut scene.shapes) {
         if let Shape::Triangle(triangle) = &mut of.shape {
             let [a, b, c] = triangle.vertices;
             let [across, along] = [(b - a).cross(c - a), b - a].map(|vector| vector.normalize().as_vec3());

@@ -11,6 +11,16 @@ use thinlens::scene::{
 };
 use thinlens::settings::{Access, Called, Changes, Role, Setting, Settings, Value, Widget, list};
 
+/// The settings of a built-in scene or, for a setting of a model, of a lone mesh.
+fn plain_for(setting: &Setting, folder: &Path) -> Settings {
+    if !setting.is_of_model() {
+        return plain();
+    }
+    let file = folder.join("some.obj");
+    std::fs::write(&file, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("a mesh");
+    Settings::of_scene(SceneRef::new(scene::load(&file).expect("a mesh")))
+}
+
 fn plain() -> Settings {
     Settings::of_scene(SceneRef::new(scene::load("version-4").expect("a built-in scene")))
 }
@@ -41,7 +51,7 @@ fn another(setting: &Setting, now: &Value, folder: &Path) -> Value {
             Value::Whole(if now == low { low + 1 } else { *low })
         }
         (Access::Switch(_), Value::Switch(now)) => Value::Switch(!now),
-        (Access::Vector(..), Value::Vector(now)) => Value::Vector(*now / 3.0 + 0.1),
+        (Access::Vector(..) | Access::Color(..), Value::Vector(now)) => Value::Vector(*now / 3.0 + 0.1),
         (Access::Size(..), Value::Size([width, height])) => Value::Size([width + 1, height + 2]),
         // The last one of the known lenses that has a field of view, and the last one of others.
         (Access::Choice(_, choices), Value::Name(now)) => {
@@ -71,7 +81,8 @@ fn out_of_range(setting: &Setting) -> Vec<String> {
             let around = [*low - 1, *high + 1];
             around.into_iter().filter(|number| *number > 0).map(|number| number.to_string()).collect()
         }
-        Access::Vector(_, [low, high]) => {
+        Access::Vector(_, [low, high]) | Access::Color(_, [low, high]) => {
+            let low = low.min(-1.0);
             vec![format!("0,{},1", low * 2.0), format!("1,0,{}", high * 2.0), "NaN,0,0".into()]
         }
         Access::Size(_, [low, high]) => vec![format!("{}x9", low - 1), format!("9x{}", high + 1)],
@@ -91,12 +102,16 @@ fn difference(a: &Settings, b: &Settings) -> Vec<&'static str> {
 #[test]
 fn each_setting_changes_what_it_says_and_is_carried_by_pictures() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let plain = plain();
     for setting in list::all() {
+        let plain = plain_for(setting, folder.path());
         let (flag, mut settings) = (setting.flag, plain.clone());
         let value = another(setting, &setting.get(&plain), folder.path());
         Changes::of(flag, value.clone()).apply(&mut settings).expect("a value that it may have");
-        let changed = difference(&settings, &plain);
+        let mut changed = difference(&settings, &plain);
+        if setting.is_of_model() {
+            // The camera and the lens follow how the model stands.
+            changed.retain(|flag| list::setting(flag).is_of_model());
+        }
         match setting.role {
             Role::Alias(others) => {
                 assert!(changed.iter().all(|flag| others.contains(flag)), "--{flag} changes {changed:?}");
@@ -108,7 +123,8 @@ fn each_setting_changes_what_it_says_and_is_carried_by_pictures() {
                 // The overlay of the error needs a film that keeps moments.
                 let mut estimator = settings.estimator.clone();
                 estimator.keeps_moments = plain.estimator.keeps_moments;
-                assert_eq!(estimator != plain.estimator, role == Role::Estimator, "--{flag}");
+                let restarts = [Role::Estimator, Role::Model].contains(&role);
+                assert_eq!(estimator != plain.estimator, restarts, "--{flag}");
                 assert_eq!(settings.view != plain.view, role == Role::View, "--{flag}");
             }
         }
@@ -120,9 +136,10 @@ fn each_setting_changes_what_it_says_and_is_carried_by_pictures() {
 /// Catches a range that is not looked at, and an error that names something else than the user did.
 #[test]
 fn a_value_out_of_range_is_refused_by_the_name_that_the_user_gave() {
-    let plain = plain();
+    let folder = tempfile::tempdir().expect("a temporary folder");
     let mut refused = 0;
     for setting in list::all() {
+        let plain = plain_for(setting, folder.path());
         for word in out_of_range(setting) {
             let value = setting.parse(&word).expect("a number");
             let error = Changes::of(setting.flag, value).apply(&mut plain.clone()).expect_err(setting.flag);
@@ -180,7 +197,7 @@ fn a_value_out_of_range_in_a_scene_file_is_refused_by_its_key() {
         for word in out_of_range(setting) {
             let value = match setting.access {
                 Access::Size(..) => format!("[{}]", word.replace('x', ", ")),
-                Access::Vector(..) => format!("[{}]", word.to_lowercase()),
+                Access::Vector(..) | Access::Color(..) => format!("[{}]", word.to_lowercase()),
                 Access::Sensor(_) => format!("{word:?}"),
                 Access::Tolerance(_) if word.ends_with('m') || word.ends_with('x') => format!("{word:?}"),
                 _ => word.to_lowercase(),
@@ -216,7 +233,8 @@ fn each_setting_has_an_option_and_those_that_do_nothing_are_not_shown() {
     let [render, save, verify] = ["render", "save", "verify"].map(help);
     for setting in list::all() {
         assert!(shown(&render, setting), "--{}", setting.flag);
-        assert_eq!(shown(&save, setting), setting.key.is_some(), "save --{}", setting.flag);
+        let is_of_scene = setting.key.is_some() || setting.is_of_model();
+        assert_eq!(shown(&save, setting), is_of_scene, "save --{}", setting.flag);
         let shows = setting.role == Role::View || setting.flag == "noise-threshold";
         assert_eq!(shown(&verify, setting), !shows, "verify --{}", setting.flag);
         let text = render.join(" ");
@@ -254,7 +272,8 @@ fn each_setting_of_a_scene_is_saved_and_the_others_stay() {
         std::fs::read_to_string(&file).expect("text")
     };
     let unchanged = text_of(&plain);
-    for setting in list::own() {
+    // tests/model.rs looks at those of a model.
+    for setting in list::own().filter(|setting| !setting.is_of_model()) {
         let (flag, mut settings) = (setting.flag, plain.clone());
         let value = another(setting, &setting.get(&plain), folder.path());
         setting.set(&mut settings, &value).expect("a value that it may have");
@@ -303,11 +322,14 @@ fn each_row_fits_its_setting() {
                 [ticked, plain].into_iter().all(|number| (low..=high).contains(&f64::from(*number)))
             }
             Widget::Drag => matches!(setting.access, Access::Vector(..)),
+            Widget::Color => matches!(setting.access, Access::Color(..)),
             Widget::Box | Widget::List | Widget::Length => false,
         };
         let fits = match &setting.access {
             Access::Single(_, range, _) => within(range.map(f64::from)),
-            Access::Double(_, range, _) | Access::Vector(_, range) => within(*range),
+            Access::Double(_, range, _) | Access::Vector(_, range) | Access::Color(_, range) => {
+                within(*range)
+            }
             Access::Whole(_, range) => within(range.map(f64::from)),
             Access::WholeOrZero(_, [_, high], _) => within([0.0, f64::from(*high)]),
             Access::Switch(_) => matches!(row.widget, Widget::Box),
@@ -341,7 +363,9 @@ fn tables() -> String {
                     String::new(),
                 ),
                 Access::Single(_, range, _) => (String::new(), span(*range)),
-                Access::Double(_, range, _) | Access::Vector(_, range) => (String::new(), span(*range)),
+                Access::Double(_, range, _) | Access::Vector(_, range) | Access::Color(_, range) => {
+                    (String::new(), span(*range))
+                }
                 Access::Whole(_, range) | Access::Size(_, range) => (String::new(), span(*range)),
                 Access::WholeOrZero(_, range, _) => (String::new(), format!("0, {}", span(*range))),
                 Access::Sensor(_) => (

@@ -8,6 +8,7 @@ use common::probe::{FAR, RayAnswer, RayQuestion, probe};
 use common::scenes::{EVERYTHING, ROOM, one_behind_the_other};
 use common::{Gpu, plain_scene_of, prove, scene_of};
 use glam::{DVec2, DVec3, Vec3};
+use std::sync::Arc;
 use thinlens::gpu_types::SceneData;
 use thinlens::interface::{light, material, shape, texture};
 use thinlens::reference::integrator::whitted::radiance;
@@ -138,7 +139,8 @@ fn everything_and_smooth_triangles() -> SceneRef {
         let normals = [14, 15, 16]
             .map(|stream| (across + spread * random_direction(index, stream).as_vec3()).normalize());
         let material = if index % 4 == 0 { mirror } else { shiny };
-        scene.shapes.push(Shaded::still(Triangle { vertices, normals: Some(normals) }, material));
+        Arc::make_mut(&mut scene.shapes)
+            .push(Shaded::still(Triangle { vertices, normals: Some(normals) }, material));
     }
     SceneRef::new(scene)
 }
@@ -151,8 +153,9 @@ fn every_kind_is_asked_about() {
     for scene in scenes {
         let data = SceneData::new(&scene, 1.0);
         // There is one background, which is in no list.
-        let lights = data.light_kinds | u32::from(scene.background != Background::BLACK) << light::BACKGROUND;
-        let kinds = [data.shape_kinds, data.material_kinds, data.texture_kinds, lights];
+        let lights =
+            data.colors.light_kinds | u32::from(scene.background != Background::BLACK) << light::BACKGROUND;
+        let kinds = [data.shape_kinds, data.colors.material_kinds, data.colors.texture_kinds, lights];
         there = [0, 1, 2, 3].map(|of| there[of] | kinds[of]);
     }
     let names = [shape::NAMES, material::NAMES, texture::NAMES, light::NAMES];

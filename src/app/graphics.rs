@@ -156,7 +156,8 @@ impl Graphics {
         if let Some(renderer) = &mut self.renderer {
             // The first picture should not wait for the passes that answer questions.
             let answers = renderer.prepared().answers() || renderer.progress().samples > 0;
-            if renderer.prepared().fits(settings, answers) {
+            let prepared = renderer.prepared();
+            if prepared.fits(settings, answers) || prepared.nearly_fits(settings, answers) {
                 return renderer.set(settings).map(|()| true);
             }
         }

@@ -3,7 +3,7 @@
 
 use super::content::Content;
 use crate::error::Result;
-use crate::renderer::{Keys, Prepared, Preparer, Renderer};
+use crate::renderer::{Prepared, Preparer, Renderer};
 use crate::settings::Settings;
 use crate::vulkan::Device;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 use winit::event_loop::EventLoopProxy;
 
-/// The thread and its pending requests. The newest request of each kind replaces older ones.
+/// The thread and its pending requests. The newest request to open something replaces older ones.
 pub(super) struct Loader {
     /// `None` once the thread is to end.
     requests: Option<Sender<Request>>,
@@ -22,8 +22,8 @@ pub(super) struct Loader {
     thread: Option<JoinHandle<()>>,
     /// The file or scene that is being opened.
     loading: Option<PathBuf>,
-    /// What is being prepared.
-    preparing: Option<Keys>,
+    /// Whether something is being prepared.
+    preparing: bool,
     /// The number of the newest request to open something.
     newest: Arc<AtomicU64>,
 }
@@ -35,15 +35,15 @@ enum Request {
 
 enum Answer {
     Opened { number: u64, name: PathBuf, opened: Result<Box<(Content, Prepared)>> },
-    Prepared { keys: Keys, prepared: Result<Prepared> },
+    Prepared(Result<Box<(Settings, Prepared)>>),
 }
 
 /// A result of the thread.
 pub(super) enum Ready {
     /// The file or scene that was opened, and the parts that its settings need.
     Opened { name: PathBuf, opened: Result<Box<(Content, Prepared)>> },
-    /// The parts that settings need.
-    Prepared(Result<Prepared>),
+    /// The parts that settings need, and these settings, with the scene as it is to be shown.
+    Prepared(Result<Box<(Settings, Prepared)>>),
 }
 
 impl Loader {
@@ -78,7 +78,7 @@ impl Loader {
             renderer,
             thread: Some(std::thread::spawn(work)),
             loading: None,
-            preparing: None,
+            preparing: false,
             newest,
         }
     }
@@ -90,11 +90,11 @@ impl Loader {
         self.ask(Request::Open { number, name: name.to_path_buf(), now: Box::new(now.clone()) });
     }
 
-    /// Prepares the parts that these settings need, unless they are being prepared already.
+    /// Prepares the parts that these settings need, unless something is being prepared already: that cannot be stopped,
+    /// and while a slider moves, it is better than nothing.
     pub(super) fn prepare(&mut self, settings: &Settings) {
-        let keys = Keys::new(settings, true);
-        if self.preparing.as_ref() != Some(&keys) {
-            self.preparing = Some(keys);
+        if !self.preparing {
+            self.preparing = true;
             self.ask(Request::Prepare(Box::new(settings.clone())));
         }
     }
@@ -116,7 +116,7 @@ impl Loader {
 
     /// Whether anything is being opened or prepared.
     pub(super) fn is_busy(&self) -> bool {
-        self.loading.is_some() || self.preparing.is_some()
+        self.loading.is_some() || self.preparing
     }
 
     /// The next thing that is ready and still wanted.
@@ -129,11 +129,9 @@ impl Loader {
                         return Some(Ready::Opened { name, opened });
                     }
                 }
-                Answer::Prepared { keys, prepared } => {
-                    if self.preparing.as_ref() == Some(&keys) {
-                        self.preparing = None;
-                        return Some(Ready::Prepared(prepared));
-                    }
+                Answer::Prepared(prepared) => {
+                    self.preparing = false;
+                    return Some(Ready::Prepared(prepared));
                 }
             }
         }
@@ -173,8 +171,10 @@ impl<F: Fn(Answer)> Worker<F> {
         }
         // What the current picture needs comes first, because it takes less time than opening another picture.
         if let Some(settings) = prepare {
-            let prepared = self.prepare(&settings);
-            (self.answer)(Answer::Prepared { keys: Keys::new(&settings, true), prepared });
+            let mut settings = *settings;
+            let prepared = settings.restage().and_then(|()| self.prepare(&settings));
+            let prepared = prepared.map(|prepared| Box::new((settings, prepared)));
+            (self.answer)(Answer::Prepared(prepared));
         }
         if let Some(Request::Open { number, name, now }) = open {
             let opened = Content::read(&name);

@@ -178,7 +178,11 @@ impl Panel {
 
     /// Restores the position of the camera that the scene was opened with, and nothing else.
     pub(super) fn reset_camera(&mut self) {
-        let (camera, initial) = (&mut self.settings.estimator.camera, &self.initial.estimator.camera);
+        let Settings { estimator: now, .. } = &mut self.settings;
+        // A model that stands in another way has another camera of its own.
+        let stands = now.scene.stage() == self.initial.estimator.scene.stage();
+        let initial = if stands { self.initial.estimator.camera } else { now.scene.camera };
+        let camera = &mut now.camera;
         (camera.eye, camera.look_at, camera.up) = (initial.eye, initial.look_at, initial.up);
     }
 
@@ -197,7 +201,7 @@ impl Panel {
     /// The depths of what the picture shows.
     pub(super) fn depths(&mut self) -> Depths {
         let estimator = &self.settings.estimator;
-        if self.extents.0 != estimator.scene {
+        if !self.extents.0.shares_shapes(&estimator.scene) {
             self.extents = (estimator.scene.clone(), Extents::of(&estimator.scene));
         }
         self.extents.1.depths(&estimator.focused_camera(), estimator.size)
@@ -317,6 +321,13 @@ impl Panel {
         self.offer_scene();
         if builtin(name).is_none() {
             self.remember(name);
+        }
+    }
+
+    /// Shows the scene whose model stands as the settings say.
+    pub(super) fn set_stage(&mut self, scene: &SceneRef) {
+        if self.settings.estimator.scene != *scene {
+            self.settings = self.settings.on_stage(scene.clone());
         }
     }
 

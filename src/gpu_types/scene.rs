@@ -26,6 +26,16 @@ pub struct SceneData {
     pub velocities: Vec<[f32; 4]>,
     /// The number of nodes on the longest path from the tree's root to a leaf; 0 where there is no tree.
     pub tree_depth: u32,
+    pub colors: SceneColors,
+    /// Whether any shape moves.
+    pub moves: bool,
+    /// Whether the origin of these coordinates is not the scene's own.
+    pub shifted: bool,
+}
+
+/// The materials and the lights of a scene, which can change while its shapes stay.
+#[derive(Debug)]
+pub struct SceneColors {
     pub materials: Vec<Material>,
     /// A bit for each kind of material.
     pub material_kinds: u32,
@@ -33,15 +43,13 @@ pub struct SceneData {
     pub texture_kinds: u32,
     /// The lights. Those that cast shadows come first.
     pub lights: Vec<Light>,
+    /// The number of lights that cast shadows.
+    pub shadow_lights: u32,
     /// A bit for each kind of light.
     pub light_kinds: u32,
     pub environment: Environment,
     /// Whether any material mirrors.
     pub reflects: bool,
-    /// Whether any shape moves.
-    pub moves: bool,
-    /// Whether the origin of these coordinates is not the scene's own.
-    pub shifted: bool,
 }
 
 /// `SceneCounts` of scene.glsl.
@@ -102,35 +110,62 @@ impl SceneData {
         for (end, kind) in list_ends.iter_mut().zip(0..) {
             *end = count(of_list.partition_point(|shape| shape.kind <= kind));
         }
-        let shadowing = || scene.lights.iter().filter(|light| light.shadows);
         let moves = scene.moves();
-        let lights = shadowing().chain(scene.lights.iter().filter(|light| !light.shadows));
-        let lights: Vec<_> = lights.map(|of| Light::new(of, origin)).collect();
-        let materials: Vec<_> = scene.materials.iter().map(|of| Material::new(of, origin)).collect();
+        let colors = SceneColors::new(scene, reach);
         Self {
             records,
             counts: SceneCounts {
                 list_ends,
                 list_begin: count(nodes.len()),
-                lights: count(lights.len()),
-                shadow_lights: count(shadowing().count()),
+                lights: count(colors.lights.len()),
+                shadow_lights: colors.shadow_lights,
                 max_tree_steps: count(nodes.len()),
             },
             shape_kinds: bits(shapes.iter().map(|shape| shape.kind)),
             normals: corner_normals(in_tree),
             velocities: all().filter(|_| moves).map(|of| with_zero(flush_denormals(of.velocity))).collect(),
             tree_depth,
-            reflects: scene.materials.iter().any(|of| of.reflectance() != Vec3::ZERO),
             moves,
             shifted: origin != DVec3::ZERO,
+            colors,
+        }
+    }
+}
+
+impl SceneColors {
+    /// The materials and the lights of a scene whose bounded shapes lie within `reach` of the origin of the device's
+    /// coordinates.
+    pub fn new(scene: &SceneRef, reach: f32) -> Self {
+        let origin = scene.middle();
+        let shadowing = || scene.lights.iter().filter(|light| light.shadows);
+        let lights = shadowing().chain(scene.lights.iter().filter(|light| !light.shadows));
+        let lights: Vec<_> = lights.map(|of| Light::new(of, origin)).collect();
+        let materials: Vec<_> = scene.materials.iter().map(|of| Material::new(of, origin)).collect();
+        Self {
+            reflects: scene.materials.iter().any(|of| of.reflectance() != Vec3::ZERO),
             material_kinds: bits(materials.iter().map(|material| material.kind)),
             texture_kinds: bits(materials.iter().map(|material| material.color.kind)),
             materials,
             light_kinds: bits(lights.iter().map(|light| light.kind)),
+            shadow_lights: u32::try_from(shadowing().count()).unwrap_or(u32::MAX),
             lights,
             environment: Environment::new(scene, reach),
         }
     }
+
+    /// The values that passes are compiled for.
+    fn constants(&self) -> [u32; 6] {
+        let counts =
+            [self.materials.len(), self.lights.len()].map(|len| u32::try_from(len).unwrap_or(u32::MAX));
+        let [materials, lights] = counts;
+        [self.material_kinds, self.texture_kinds, self.light_kinds, materials, lights, self.shadow_lights]
+    }
+}
+
+/// Whether these scenes, which share their shapes, differ only in numbers and not in what passes are compiled for.
+pub fn differ_in_numbers(one: &SceneRef, other: &SceneRef) -> bool {
+    let constants = |of: &SceneRef| SceneColors::new(of, 0.0).constants();
+    one.shares_shapes(other) && constants(one) == constants(other)
 }
 
 /// The corner normals of each shape, or nothing if no shape has any. Zeros stand for the triangle's own normal.

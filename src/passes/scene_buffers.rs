@@ -1,7 +1,7 @@
 //! A scene's buffers on the device, and upper bounds for the work that its rays take.
 
 use crate::error::{Error, Result};
-use crate::gpu_types::{EnvironmentBuffer, SceneCounts, SceneData};
+use crate::gpu_types::{EnvironmentBuffer, SceneColors, SceneCounts, SceneData};
 use crate::interface::{SPELLED_OUT_STACK, STACK_INDEX_BITS, binding, constant, shape};
 use crate::vulkan::{Binding, Buffer, Device, TexelBuffer};
 use bytemuck::Pod;
@@ -22,6 +22,7 @@ const SAMPLER_LOOP_STEPS: u64 = 24 + 16;
 
 /// What the passes read of a scene, and the constants that they are compiled for.
 pub struct SceneBuffers {
+    shapes: Arc<ShapeBuffers>,
     bindings: Vec<(u32, Binding)>,
     constants: Vec<(u32, u32)>,
     counts: SceneCounts,
@@ -31,13 +32,30 @@ pub struct SceneBuffers {
     reflects: bool,
 }
 
+/// The part of the buffers that depends on the shapes alone.
+struct ShapeBuffers {
+    records: Binding,
+    normals: Binding,
+    velocities: Binding,
+    counts: SceneCounts,
+    /// The number of shapes in the list.
+    listed: usize,
+    /// A bit for each kind of shape.
+    kinds: u32,
+    has_normals: bool,
+    moves: bool,
+    shifted: bool,
+    tree_depth: u32,
+    /// The distance from the origin within which all bounded shapes stay.
+    reach: f32,
+}
+
 impl SceneBuffers {
     /// Uploads a scene.
     ///
     /// # Errors
     /// [`Error::Limit`] where the scene has more shapes than a tree can hold.
     pub fn new(device: &Arc<Device>, scene: &SceneData) -> Result<Self> {
-        let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
         if scene.records.len() > MAX_RECORDS {
             return Err(Error::Limit {
                 what: "the list of shapes and the nodes of their tree",
@@ -48,49 +66,75 @@ impl SceneBuffers {
                 advice: "use fewer shapes",
             });
         }
-        let traits = device.traits();
-        let max_tree_steps = scene.counts.max_tree_steps.min(traits.max_tree_steps.unwrap_or(u32::MAX));
-        let counts = SceneCounts { max_tree_steps, ..scene.counts };
-        let listed = scene.records.len() - counts.list_begin as usize;
-        let few = listed.max(scene.materials.len()).max(scene.lights.len()) <= MAX_KEPT;
-        let kept = traits.keeps_scene && few;
+        let max_tree_steps =
+            scene.counts.max_tree_steps.min(device.traits().max_tree_steps.unwrap_or(u32::MAX));
+        let shapes = ShapeBuffers {
+            records: texels(device, "shapes", &scene.records)?,
+            normals: texels(device, "corner normals", &scene.normals)?,
+            velocities: texels(device, "velocities", &scene.velocities)?,
+            counts: SceneCounts { max_tree_steps, ..scene.counts },
+            listed: scene.records.len() - scene.counts.list_begin as usize,
+            kinds: scene.shape_kinds,
+            has_normals: !scene.normals.is_empty(),
+            moves: scene.moves,
+            shifted: scene.shifted,
+            tree_depth: scene.tree_depth,
+            reach: scene.colors.environment.bounding_radius,
+        };
+        Self::assemble(device, Arc::new(shapes), &scene.colors)
+    }
+
+    /// The buffers of a scene with the same shapes, which are shared, but other materials and lights.
+    ///
+    /// # Errors
+    /// Those of [`crate::vulkan`].
+    pub fn recolored(&self, device: &Arc<Device>, colors: &SceneColors) -> Result<Self> {
+        Self::assemble(device, Arc::clone(&self.shapes), colors)
+    }
+
+    /// The distance from the origin within which all bounded shapes stay.
+    pub fn reach(&self) -> f32 {
+        self.shapes.reach
+    }
+
+    fn assemble(device: &Arc<Device>, shapes: Arc<ShapeBuffers>, colors: &SceneColors) -> Result<Self> {
+        let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
+        let few = shapes.listed.max(colors.materials.len()).max(colors.lights.len()) <= MAX_KEPT;
+        let kept = device.traits().keeps_scene && few;
+        let (lights, shadow_lights) = (count(colors.lights.len()), colors.shadow_lights);
+        let counts = SceneCounts { lights, shadow_lights, ..shapes.counts };
+        let environment = EnvironmentBuffer { environment: colors.environment, counts };
         let bindings = vec![
-            (binding::MATERIALS, buffer(device, "materials", &scene.materials)?),
-            (binding::LIGHTS, buffer(device, "lights", &scene.lights)?),
-            (
-                binding::ENVIRONMENT,
-                buffer(
-                    device,
-                    "environment",
-                    &[EnvironmentBuffer { environment: scene.environment, counts }],
-                )?,
-            ),
-            (binding::RECORDS, texels(device, "shapes", &scene.records)?),
-            (binding::CORNER_NORMALS, texels(device, "corner normals", &scene.normals)?),
-            (binding::VELOCITIES, texels(device, "velocities", &scene.velocities)?),
+            (binding::MATERIALS, buffer(device, "materials", &colors.materials)?),
+            (binding::LIGHTS, buffer(device, "lights", &colors.lights)?),
+            (binding::ENVIRONMENT, buffer(device, "environment", &[environment])?),
+            (binding::RECORDS, shapes.records.clone()),
+            (binding::CORNER_NORMALS, shapes.normals.clone()),
+            (binding::VELOCITIES, shapes.velocities.clone()),
         ];
         // The shaders read the numbers from the buffer where the scene is not copied: then the same constants, and so
         // the same pipelines, serve many scenes.
         let known = |number: u32| if kept { number } else { 0 };
-        let tree_depth = if kept { scene.tree_depth } else { scene.tree_depth.next_multiple_of(STACK_STEP) };
+        let tree_depth =
+            if kept { shapes.tree_depth } else { shapes.tree_depth.next_multiple_of(STACK_STEP) };
         let mut constants = vec![
             (constant::LIGHT_COUNT, known(counts.lights)),
             (constant::SHADOW_LIGHT_COUNT, known(counts.shadow_lights)),
-            (constant::MATERIAL_COUNT, known(count(scene.materials.len())).max(1)),
+            (constant::MATERIAL_COUNT, known(count(colors.materials.len())).max(1)),
             (constant::SCENE_IS_KEPT, kept.into()),
-            (constant::SCENE_MOVES, scene.moves.into()),
-            (constant::SCENE_IS_SHIFTED, scene.shifted.into()),
+            (constant::SCENE_MOVES, shapes.moves.into()),
+            (constant::SCENE_IS_SHIFTED, shapes.shifted.into()),
             (constant::TREE_DEPTH, tree_depth),
             (constant::LIST_BEGIN, known(counts.list_begin)),
-            (constant::SHAPE_KINDS, scene.shape_kinds),
-            (constant::MATERIAL_KINDS, scene.material_kinds),
-            (constant::TEXTURE_KINDS, scene.texture_kinds),
-            (constant::LIGHT_KINDS, scene.light_kinds),
-            (constant::HAS_CORNER_NORMALS, (!scene.normals.is_empty()).into()),
+            (constant::SHAPE_KINDS, shapes.kinds),
+            (constant::MATERIAL_KINDS, colors.material_kinds),
+            (constant::TEXTURE_KINDS, colors.texture_kinds),
+            (constant::LIGHT_KINDS, colors.light_kinds),
+            (constant::HAS_CORNER_NORMALS, shapes.has_normals.into()),
             (constant::MAX_TREE_STEPS, known(counts.max_tree_steps)),
         ];
         constants.extend((constant::SHAPE_END..).zip(counts.list_ends.map(known)));
-        Ok(Self { bindings, constants, counts, tree_depth, reflects: scene.reflects })
+        Ok(Self { shapes, bindings, constants, counts, tree_depth, reflects: colors.reflects })
     }
 
     /// Whether some of the scene's shapes are in a tree.

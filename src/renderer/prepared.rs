@@ -3,12 +3,14 @@
 
 use super::schedule::{self, MAX_BATCH};
 use crate::error::{Error, Result};
-use crate::gpu_types::{Counters, SceneData, aperture_sums, film_constants, lens_constants};
+use crate::gpu_types::{
+    Counters, SceneColors, SceneData, aperture_sums, differ_in_numbers, film_constants, lens_constants,
+};
 use crate::passes::{
     Accumulate, ApertureBuffers, BlueNoiseTile, Geometry, Pick, Resolve, ResolveKind, SceneBuffers, Select,
     Shaders, Trace,
 };
-use crate::scene::{ApertureImage, Overlay, SceneRef};
+use crate::scene::{ApertureImage, Overlay, SceneRef, Stage};
 use crate::settings::{Estimator, Settings};
 use crate::vulkan::{Buffer, Device, Residence};
 use std::sync::Arc;
@@ -60,9 +62,18 @@ pub struct Keys {
 #[derive(Clone, PartialEq)]
 struct SceneKey {
     scene: SceneRef,
+    /// How its model is to be shown. The scene may not be so yet, and then nothing that was prepared fits.
+    stage: Stage,
     /// How long the shutter is open, if anything moves: the boxes of the tree enclose all that a shape passes
     /// meanwhile.
     shutter: Option<f32>,
+}
+
+impl SceneKey {
+    /// Whether the shapes of both are the same, whatever their colours and lights.
+    fn has_shapes_of(&self, other: &Self) -> bool {
+        self.shutter == other.shutter && self.scene.shares_shapes(&other.scene)
+    }
 }
 
 impl Keys {
@@ -72,7 +83,11 @@ impl Keys {
         let scene = estimator.scene.clone();
         let has_moments = estimator.has_moments();
         Self {
-            scene: SceneKey { shutter: scene.moves().then_some(estimator.shutter), scene },
+            scene: SceneKey {
+                shutter: scene.moves().then_some(estimator.shutter),
+                stage: estimator.stage,
+                scene,
+            },
             aperture: estimator.aperture.image.clone(),
             lens: lens_constants(estimator),
             film: film_constants(estimator),
@@ -109,8 +124,12 @@ impl Preparer {
         let (device, shaders, tile) = (&self.device, &self.shaders, &self.tile);
 
         let same = old.filter(|old| old.keys.scene == keys.scene);
-        let scene = share_or(same.map(|old| &old.scene), || {
-            SceneBuffers::new(device, &SceneData::new(&keys.scene.scene, settings.estimator.shutter))
+        let recolored = old.filter(|old| old.keys.scene.has_shapes_of(&keys.scene));
+        let scene = share_or(same.map(|old| &old.scene), || match recolored {
+            Some(Prepared { scene: old, .. }) => {
+                old.recolored(device, &SceneColors::new(&keys.scene.scene, old.reach()))
+            }
+            None => SceneBuffers::new(device, &SceneData::new(&keys.scene.scene, settings.estimator.shutter)),
         })?;
         // A scene that is too large must be refused first: a driver might fail to compile the passes for it.
         self.largest_batch(&scene, &settings.estimator)?;
@@ -180,6 +199,17 @@ impl Prepared {
     /// Whether these parts are what the settings need.
     pub fn fits(&self, settings: &Settings, answers: bool) -> bool {
         self.keys == Keys::new(settings, answers)
+    }
+
+    /// Whether what the settings need beyond these parts is made at once: only colours and lights differ.
+    pub fn nearly_fits(&self, settings: &Settings, answers: bool) -> bool {
+        let keys = Keys::new(settings, answers);
+        let scene = self.keys.scene.clone();
+        let stands = keys.scene.scene.stage().is_none_or(|stage| *stage == keys.scene.stage);
+        stands
+            && differ_in_numbers(&scene.scene, &keys.scene.scene)
+            && self.keys.scene.has_shapes_of(&keys.scene)
+            && self.keys == Keys { scene, ..keys }
     }
 
     /// Whether all parts are the same as those of the other.

@@ -2,10 +2,11 @@
 
 use super::mesh::Mesh;
 use super::toml::{self, error::ParseError, text};
-use super::{BUILTINS, Scene, stage};
+use super::{BUILTINS, Scene, Stage, stage};
 use crate::error::{Error, Result};
 use crate::input_file;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// The largest size of a scene file in bytes. Parsing takes about fifty times as much memory.
 const MAX_TEXT: u64 = 128 << 20;
@@ -27,21 +28,21 @@ pub struct Loaded {
 /// [`Error::UnknownScene`] with near names, [`Error::NotAScene`], [`Error::Read`], [`Error::Scene`] with file and line, or
 /// [`Error::Mesh`].
 pub fn load(scene: impl AsRef<Path>) -> Result<Scene> {
-    Ok(load_with_text(scene)?.scene)
+    Ok(load_with_text(scene, &Stage::default())?.scene)
 }
 
-/// Loads a scene as [`load`] does, and also returns the text of its file.
+/// Loads a scene as [`load`] does, and also returns the text of its file. A lone mesh is shown like this.
 ///
 /// # Errors
 /// As [`load`].
-pub fn load_with_text(scene: impl AsRef<Path>) -> Result<Loaded> {
+pub fn load_with_text(scene: impl AsRef<Path>, stage: &Stage) -> Result<Loaded> {
     let scene = scene.as_ref();
-    let mut loaded = load_named(scene)?;
+    let mut loaded = load_named(scene, stage)?;
     scene.clone_into(&mut loaded.scene.source);
     Ok(loaded)
 }
 
-fn load_named(scene: &Path) -> Result<Loaded> {
+fn load_named(scene: &Path, stage: &Stage) -> Result<Loaded> {
     if let Some(builtin) = BUILTINS.iter().find(|builtin| scene == Path::new(builtin.name)) {
         let text = builtin.toml.to_owned();
         return Ok(Loaded { scene: parse(builtin.name, scene, &text)?, text, folder: PathBuf::new() });
@@ -58,8 +59,9 @@ fn load_named(scene: &Path) -> Result<Loaded> {
         }
         Some(extension) if extension.eq_ignore_ascii_case("obj") => {
             let name = scene.file_name().unwrap_or_default().to_string_lossy();
-            let (scene, text) = stage::around(&Mesh::read(scene)?, &name)?;
-            Ok(Loaded { scene, text, folder })
+            let scene = stage::around(Arc::new(Mesh::read(scene)?), stage, &name)?;
+            let text = scene.staged.as_ref().map(|staged| stage::text(&scene, staged)).transpose()?;
+            Ok(Loaded { scene, text: text.unwrap_or_default(), folder })
         }
         _ if scene.exists() => Err(Error::NotAScene(scene.to_path_buf())),
         _ => Err(unknown(scene)),

@@ -8,17 +8,18 @@ use crate::input_file;
 use glam::{DQuat, DVec3, Vec3};
 use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// The material of a mesh that has no other: clay, with a faint gloss.
-const CLAY: Material = Material::Phong(Phong {
-    color: Texture::constant(Vec3::new(0.75, 0.36, 0.2)),
-    ka: 1.0,
-    kd: 1.0,
-    ks: 0.12,
-    exponent: 24.0,
-});
+pub(super) fn clay(color: Texture) -> Material {
+    Phong { color, ka: 1.0, kd: 1.0, ks: 0.12, exponent: 24.0 }.into()
+}
+
+/// The colour of clay, unless another is chosen.
+pub(super) const CLAY: DVec3 = DVec3::new(0.75, 0.36, 0.2);
 
 /// A mesh in the coordinates of its file.
+#[derive(Debug)]
 pub(super) struct Mesh {
     file: String,
     /// The files that it was read from.
@@ -91,10 +92,15 @@ impl Mesh {
         Error::Mesh { file: self.file.clone(), message }
     }
 
-    /// The corners of the box around the faces with the smallest and the largest coordinates.
-    pub(super) fn bounds(&self) -> [DVec3; 2] {
+    /// Whether its files give any of its faces a colour.
+    pub(super) fn has_colors(&self) -> bool {
+        self.colors.iter().any(Option::is_some)
+    }
+
+    /// The corners of the box around the turned faces with the smallest and the largest coordinates.
+    pub(super) fn bounds(&self, rotation: DQuat) -> [DVec3; 2] {
         let corners = self.obj.faces.iter().flat_map(|face| face.corners);
-        let positions = corners.map(|corner| self.obj.positions[corner.position as usize]);
+        let positions = corners.map(|corner| rotation * self.obj.positions[corner.position as usize]);
         let empty = [DVec3::INFINITY, DVec3::NEG_INFINITY];
         positions.fold(empty, |[lower, upper], position| [lower.min(position), upper.max(position)])
     }
@@ -150,7 +156,7 @@ impl Mesh {
             material: material_of(face.material),
             velocity,
         });
-        scene.shapes.extend(triangles);
+        Arc::make_mut(&mut scene.shapes).extend(triangles);
         scene.files.extend(self.files.iter().cloned());
         Ok(())
     }
@@ -168,7 +174,8 @@ impl Mesh {
     /// Adds the materials that are needed to the scene. For each of the file's materials, gives its index in the scene.
     fn add_materials(&self, scene: &mut Scene, material: Option<u32>) -> impl Fn(Option<u32>) -> u32 + use<> {
         let matte = |color| Matte { color: Texture::constant(color), ka: 1.0, kd: 1.0 }.into();
-        let default = material.unwrap_or_else(|| scene.add_material("clay", CLAY));
+        let default =
+            material.unwrap_or_else(|| scene.add_material("clay", clay(Texture::constant(CLAY.as_vec3()))));
         let own: Vec<u32> = match material {
             Some(_) => Vec::new(),
             None => {

@@ -40,9 +40,11 @@ pub use preset::{PRESETS, Preset};
 pub use range::*;
 pub use sensor::{FORMATS, Format, Sensor};
 pub use shape::*;
+pub use stage::{COLORS, LIGHT_STRENGTHS, ModelMaterial, Stage, TURNS, UpAxis};
 pub use texture::*;
 pub use view::{Tolerance, View};
 
+use crate::error::Result;
 use glam::{DVec3, Vec3};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -58,7 +60,7 @@ pub const MIN_LENGTH: f32 = 1e-6;
 pub const MAX_LENGTH: f32 = 1e9;
 
 /// A scene: shapes, materials and lights, with a camera and a picture size.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Scene {
     /// The name of the built-in scene or of the file.
     pub name: String,
@@ -96,7 +98,9 @@ pub struct Scene {
     /// The names of the materials.
     pub material_names: Vec<String>,
     /// The shapes of all kinds.
-    pub shapes: Vec<Shaded>,
+    pub shapes: Arc<Vec<Shaded>>,
+    /// The lone mesh that the scene is made around, if it is.
+    staged: Option<stage::Staged>,
 }
 
 /// The default time that the shutter is open, in seconds.
@@ -139,6 +143,26 @@ impl SceneRef {
     pub fn new(scene: Scene) -> Self {
         let middle = middle::of(&scene);
         Self(Arc::new(Shared { scene, middle }))
+    }
+
+    /// Shares this scene, whose shapes are those of another one.
+    fn with_shapes_of(scene: Scene, other: &Self) -> Self {
+        Self(Arc::new(Shared { scene, middle: other.middle() }))
+    }
+
+    /// The scene with its model shown like this. `None` for a scene without a model.
+    ///
+    /// # Errors
+    /// [`crate::error::Error::Mesh`] if the model cannot be shown.
+    pub fn with_stage(&self, stage: &Stage) -> Result<Option<Self>> {
+        Ok(self.0.scene.with_stage(stage)?.map(|scene| {
+            if self.shares_shapes(&scene) { Self::with_shapes_of(scene, self) } else { Self::new(scene) }
+        }))
+    }
+
+    /// Whether the shapes of both are the same in memory.
+    pub fn shares_shapes(&self, other: &Scene) -> bool {
+        Arc::ptr_eq(&self.shapes, &other.shapes)
     }
 
     /// The origin of the coordinates that a device computes with. It is near the middle of the scene, because f32 has

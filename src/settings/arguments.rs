@@ -4,7 +4,7 @@
 use super::setting::NONE;
 use super::{Changes, Settings, Value, list};
 use crate::error::{Error, Result};
-use crate::scene::{self, BUILTINS, SceneRef};
+use crate::scene::{self, BUILTINS, SceneRef, Stage};
 use clap::{Arg, Args};
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
@@ -23,7 +23,8 @@ impl Settings {
 
     fn arguments_with(&self, named: impl Fn(&Path) -> PathBuf) -> Vec<OsString> {
         let scene = &self.estimator.scene;
-        let plain = Self::of_scene(scene.clone());
+        let mut plain = Self::of_scene(scene.clone());
+        plain.estimator.stage = Stage::default();
         let mut arguments = vec![scene_argument(&scene.source, &named)];
         for setting in list::own() {
             let value = setting.get(self);

@@ -15,7 +15,8 @@ pub use arguments::quoted;
 pub use focusing::{Focusing, Place};
 pub use options::Changes;
 pub use setting::{
-    Access, Called, Choice, Field, Key, Part, Role, Row, Setting, Slider, Value, Widget, size,
+    Access, Called, Choice, Field, Key, Part, Role, Row, Setting, Slider, Value, Widget, size, to_linear,
+    to_srgb,
 };
 pub use sweep::Sweep;
 pub use typed::{Unit, metric, rounded};
@@ -23,7 +24,7 @@ pub use typed::{Unit, metric, rounded};
 use crate::error::{Error, Result};
 use crate::scene::{
     Aperture, Camera, CameraModel, FocalPlane, FullScale, Hole, Lens, Overlay, Preset, SceneRef, Source,
-    View, in_range,
+    Stage, View, in_range,
 };
 use std::path::Path;
 
@@ -62,6 +63,8 @@ pub struct DeviceChoice {
 pub struct Estimator {
     /// The shapes, materials and lights.
     pub scene: SceneRef,
+    /// How a lone mesh is shown. [`Settings::restage`] makes the scene so; until then, the scene is as it was.
+    pub stage: Stage,
     /// The position and the field of view of the camera.
     pub camera: Camera,
     /// The camera model.
@@ -215,6 +218,7 @@ impl Settings {
                 seed: 0,
                 noise_threshold: 0.0,
                 keeps_moments: false,
+                stage: scene.stage().copied().unwrap_or_default(),
                 scene,
             },
             view,
@@ -254,6 +258,59 @@ impl Settings {
             settings.show(self.view.overlay);
         }
         settings
+    }
+
+    /// Makes the scene anew if its model is to be shown in another way than it is. What differs from the scene's own
+    /// settings stays as it is, and everything else follows the new scene.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a scene without a model, or [`Error::Mesh`] if the model cannot be shown like this.
+    pub fn restage(&mut self) -> Result<()> {
+        let Estimator { scene, stage, .. } = &self.estimator;
+        if *stage == scene.stage().copied().unwrap_or_default() {
+            return Ok(());
+        }
+        for setting in list::own().filter(|setting| setting.is_of_model()) {
+            setting.check(&setting.get(self), Called::Flag)?;
+        }
+        if stage.light_direction.as_vec3() == glam::Vec3::ZERO {
+            let name = list::setting("light-direction").name(Called::Flag);
+            return Err(Error::OutOfRange(format!("{name} must not be zero")));
+        }
+        let Some(new) = scene.with_stage(stage)? else {
+            let name = scene.source.display();
+            return Err(Error::OutOfRange(format!(
+                "{name} is no mesh, so it cannot be shown like this: the options of a model are for an .obj that is \
+                 opened by itself, and a scene file says the same in its tables"
+            )));
+        };
+        *self = self.on_stage(new);
+        Ok(())
+    }
+
+    /// Whether only colours and lights of the scene are to be made anew.
+    pub fn needs_colors(&self) -> bool {
+        let Estimator { scene, stage, .. } = &self.estimator;
+        scene.stage().is_some_and(|now| now != stage) && scene.keeps_shapes(stage)
+    }
+
+    /// The settings for the same scene on another stage.
+    pub fn on_stage(&self, scene: SceneRef) -> Self {
+        let plain = Self::of_scene(self.estimator.scene.clone());
+        let mut new = Self::of_scene(scene);
+        for setting in list::own() {
+            let value = setting.get(self);
+            match &setting.access {
+                // The image is in memory already.
+                Access::Image(field) => (field.set)(&mut new, (field.get)(self)),
+                _ if value != setting.get(&plain) => {
+                    setting.set(&mut new, &value).expect("only an image can fail to be read");
+                }
+                _ => {}
+            }
+        }
+        new.estimator.keeps_moments = self.estimator.keeps_moments;
+        new
     }
 
     /// Shows an overlay, or none. The overlay of the error needs moments, so the film keeps them from then on.

@@ -40,12 +40,17 @@ impl Changes {
     /// [`crate::error::Error::OutOfRange`], or the errors of reading an image.
     pub fn apply(&self, settings: &mut Settings) -> Result<()> {
         for (setting, value) in &self.0 {
+            // The scene's own camera and lens depend on how its model stands.
+            if !setting.is_of_model() {
+                settings.restage()?;
+            }
             // The check of all settings looks at own values alone, and an alias has none.
             if setting.is_alias() {
                 setting.check(value, Called::Flag)?;
             }
             setting.set(settings, value)?;
         }
+        settings.restage()?;
         settings.check()
     }
 }
@@ -96,7 +101,9 @@ fn option(setting: &'static Setting) -> Arg {
     let text = ValueParser::new(|text: &str| setting.parse(text));
     match &setting.access {
         // clap takes -1/3 and -12,5 for options.
-        Access::Vector(..) | Access::Single(_, _, Unit::Stops | Unit::Degrees | Unit::Millimetres) => {
+        Access::Vector(..)
+        | Access::Color(..)
+        | Access::Single(_, _, Unit::Stops | Unit::Degrees | Unit::Millimetres) => {
             option.allow_hyphen_values(true).value_name(setting.value_name).value_parser(text)
         }
         Access::Switch(_) => {

@@ -18,7 +18,8 @@ impl Settings {
     pub fn scene_file(&self, folder: &Path) -> Result<String> {
         let source = &self.estimator.scene.source;
         // The file may have changed since it was loaded.
-        let Loaded { scene, text, folder: own_folder } = scene::load_with_text(source)?;
+        let Loaded { scene, text, folder: own_folder } =
+            scene::load_with_text(source, &self.estimator.stage)?;
         let unusable =
             |message: String| Error::Scene { file: source.display().to_string(), line: 1, message };
         // The text of the scene around a mesh contains the name of the mesh, relative to the old folder.

@@ -22,7 +22,8 @@ pub struct Setting {
     /// What a change of the setting affects.
     pub role: Role,
     /// Its key in a scene file. A setting without a key says how a scene is sampled: scene files do not store it, and
-    /// it stays as it is when another scene is opened.
+    /// it stays as it is when another scene is opened. Or it says how a lone mesh is shown: then the scene file has the
+    /// tables of the scene that is made around it.
     pub key: Option<Key>,
     /// How to read and write its value, and the range of the value.
     pub access: Access,
@@ -35,6 +36,8 @@ pub struct Setting {
 pub enum Role {
     /// The integral that a pixel estimates. The film starts anew.
     Estimator,
+    /// How a lone mesh is shown, and so the scene. The film starts anew.
+    Model,
     /// How the film is shown.
     View,
     /// The number of samples in the film.
@@ -79,6 +82,8 @@ pub enum Access {
     Switch(Field<bool>),
     /// A position or a direction.
     Vector(Field<DVec3>, [f64; 2]),
+    /// A colour: linear red, green and blue.
+    Color(Field<DVec3>, [f64; 2]),
     /// A width and a height in pixels.
     Size(Field<[u32; 2]>, [u32; 2]),
     /// One of several choices, by its name.
@@ -122,9 +127,10 @@ pub struct Row {
 pub enum Part {
     Top,
     Points,
-    Model,
+    Camera,
     Lens,
     Aperture,
+    Model,
     Movements,
     Viewpoint,
     Light,
@@ -136,6 +142,8 @@ pub enum Part {
 pub enum Widget {
     /// A slider.
     Slider(Slider),
+    /// A field for a colour.
+    Color,
     /// A check box.
     Box,
     /// A check box that switches between two numbers.
@@ -174,7 +182,7 @@ pub enum Value {
     Whole(u32),
     /// For [`Access::Switch`].
     Switch(bool),
-    /// For [`Access::Vector`].
+    /// For [`Access::Vector`] and [`Access::Color`].
     Vector(DVec3),
     /// For [`Access::Size`].
     Size([u32; 2]),
@@ -222,7 +230,7 @@ impl Setting {
             Access::Double(field, ..) => Value::Double((field.get)(settings)),
             Access::Whole(field, _) | Access::WholeOrZero(field, ..) => Value::Whole((field.get)(settings)),
             Access::Switch(field) => Value::Switch((field.get)(settings)),
-            Access::Vector(field, _) => Value::Vector((field.get)(settings)),
+            Access::Vector(field, _) | Access::Color(field, _) => Value::Vector((field.get)(settings)),
             Access::Size(field, _) => Value::Size((field.get)(settings)),
             Access::Choice(field, _) => Value::Name((field.get)(settings)),
             Access::Image(field) => Value::File((field.get)(settings).map(|image| image.file.clone())),
@@ -247,7 +255,9 @@ impl Setting {
                 (field.set)(settings, *value);
             }
             (Access::Switch(field), Value::Switch(value)) => (field.set)(settings, *value),
-            (Access::Vector(field, _), Value::Vector(value)) => (field.set)(settings, *value),
+            (Access::Vector(field, _) | Access::Color(field, _), Value::Vector(value)) => {
+                (field.set)(settings, *value);
+            }
             (Access::Size(field, _), Value::Size(value)) => (field.set)(settings, *value),
             (Access::Choice(field, _), Value::Name(value)) => (field.set)(settings, value),
             (Access::Image(field), Value::File(file)) => {
@@ -273,7 +283,7 @@ impl Setting {
             (Access::WholeOrZero(_, range, zero), Value::Whole(value)) => {
                 in_range_or_zero(*value, *range, zero)
             }
-            (Access::Vector(_, range), Value::Vector(value)) => {
+            (Access::Vector(_, range) | Access::Color(_, range), Value::Vector(value)) => {
                 value.to_array().into_iter().try_for_each(|part| in_range(part, *range))
             }
             (Access::Size(_, range), Value::Size([width, height])) => {
@@ -319,6 +329,9 @@ impl Setting {
                 Tolerance::Pixels(pixels) => format!("{} px", rounded(pixels.into(), 3)),
             };
         }
+        if let (Access::Color(..), Value::Vector(color)) = (&self.access, self.get(settings)) {
+            return hex(color);
+        }
         let Some(number) = self.number(settings) else { return String::new() };
         match &self.access {
             Access::Single(_, _, unit) | Access::Double(_, _, unit) => {
@@ -356,6 +369,10 @@ impl Setting {
             Access::Vector(..) => {
                 (vector(text).map(Value::Vector), "a place or direction is X,Y,Z, such as 0,1.5,-10")
             }
+            Access::Color(..) => (
+                color(text).map(Value::Vector),
+                "a colour is #RRGGBB, or R,G,B in linear light from 0 to 1, such as #c08040 or 0.53,0.22,0.05",
+            ),
             Access::Size(..) => {
                 (size(text).map(Value::Size), "a size is WIDTHxHEIGHT in pixels, such as 1280x720")
             }
@@ -375,7 +392,13 @@ impl Setting {
 
     /// Whether the setting says how a scene is sampled, and so is not a part of the scene.
     pub fn is_of_sampling(&self) -> bool {
-        self.key.is_none()
+        self.key.is_none() && !self.is_of_model()
+    }
+
+    /// Whether the setting says how a lone mesh is shown. The scene is made anew when it changes.
+    pub fn is_of_model(&self) -> bool {
+        // An alias of such a setting has its row among theirs.
+        self.role == Role::Model || self.row.as_ref().is_some_and(|row| row.part == Part::Model)
     }
 
     /// Whether the setting is another way to give other settings.
@@ -392,6 +415,32 @@ pub(super) fn file(path: &Path) -> Value {
 fn vector(text: &str) -> Option<DVec3> {
     let numbers: Option<Vec<f64>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
     numbers.and_then(|numbers| <[f64; 3]>::try_from(numbers).ok()).map(DVec3::from_array)
+}
+
+/// A colour in linear light, from its sRGB code or its channels.
+fn color(text: &str) -> Option<DVec3> {
+    let Some(digits) = text.trim().strip_prefix('#') else { return vector(text) };
+    let code = u32::from_str_radix(digits, 16).ok().filter(|_| digits.len() == 6)?;
+    let channel = |shift: u32| to_linear(f64::from(code >> shift & 0xff) / 255.0);
+    Some(DVec3::new(channel(16), channel(8), channel(0)))
+}
+
+/// The sRGB code of a colour in linear light.
+fn hex(color: DVec3) -> String {
+    let [red, green, blue] = color.to_array().map(|channel| (255.0 * to_srgb(channel)).round() as u8);
+    format!("#{red:02x}{green:02x}{blue:02x}")
+}
+
+/// A channel of sRGB in linear light, with as few digits as tell apart any two of its 256 levels.
+pub fn to_linear(level: f64) -> f64 {
+    let linear = if level <= 0.04045 { level / 12.92 } else { ((level + 0.055) / 1.055).powf(2.4) };
+    (1e5 * linear).round() / 1e5
+}
+
+/// A channel of linear light in sRGB.
+pub fn to_srgb(linear: f64) -> f64 {
+    let level = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
+    level.clamp(0.0, 1.0)
 }
 
 /// A width and a height.

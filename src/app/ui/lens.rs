@@ -49,7 +49,7 @@ const SAME_STOP: f64 = 1e-3;
 impl Panel {
     /// Draws the list of camera models, the sensor, the focal length, the f-number with its stops, and what follows.
     pub(super) fn lens(&mut self, ui: &Ui, layout: &mut Layout) {
-        self.rows(ui, Part::Model, layout);
+        self.rows(ui, Part::Camera, layout);
         self.rows(ui, Part::Lens, layout);
         let camera = &self.settings.estimator.camera;
         ui.text(format!("35 mm equivalent: {:.0} mm", camera.focal_length_35mm()));

@@ -263,6 +263,9 @@ impl Panel {
         ui.disabled(self.settings.estimator.model == CameraModel::Pinhole, || {
             section(ui, "Aperture shape", false, folds, layout, |layout| self.aperture(ui, layout));
         });
+        if self.settings.estimator.scene.stage().is_some() {
+            section(ui, "Model", true, folds, layout, |layout| self.rows(ui, Part::Model, layout));
+        }
         section(ui, "Viewpoint", false, folds, layout, |layout| {
             self.rows(ui, Part::Viewpoint, layout);
             tick(

@@ -6,7 +6,9 @@ use super::widgets::{Layout, beside, combo, heading, note_item, points_at_item, 
 use crate::app::panel::Panel;
 use crate::app::typing::Typing;
 use crate::scene::{Depths, PLACES};
-use crate::settings::{Access, Choice, Field, Part, Row, Setting, Settings, Slider, Widget, list};
+use crate::settings::{
+    Access, Choice, Field, Part, Row, Setting, Settings, Slider, Widget, list, to_linear, to_srgb,
+};
 use glam::DVec3;
 use imgui::{Drag, Key, MouseButton, SliderFlags, StyleColor, Ui};
 
@@ -40,7 +42,9 @@ impl Panel {
         let Row { label, help, .. } = row;
         let settings = &mut self.settings;
         match (&row.widget, &setting.access) {
-            (Widget::Slider(_) | Widget::Drag | Widget::Length, _) => self.number(ui, setting, row, layout),
+            (Widget::Slider(_) | Widget::Drag | Widget::Length | Widget::Color, _) => {
+                self.number(ui, setting, row, layout)
+            }
             (Widget::Box, Access::Switch(field)) => {
                 let mut ticked = (field.get)(settings);
                 if tick(ui, label, help, &mut ticked, layout) {
@@ -78,7 +82,8 @@ impl Panel {
         let before = ctrl.then(|| self.settings.clone());
         ui.set_next_item_width(-1.0);
         let id = format!("##{}", row.label);
-        let mut of_units = false;
+        // Whether the row has noted and explained its control already, because another item follows it.
+        let mut noted = false;
         match (&row.widget, &setting.access) {
             (Widget::Slider(slider), _) => {
                 slide(ui, &id, setting, slider, &mut self.settings, &self.initial);
@@ -88,14 +93,17 @@ impl Panel {
                 }
             }
             (_, Access::Tolerance(field)) => {
-                of_units = true;
+                noted = true;
                 tolerance(ui, &id, row, field, &mut self.settings, layout);
             }
             (_, Access::Vector(field, _)) => drag(ui, &id, field, &mut self.settings),
+            (_, Access::Color(field, _)) => {
+                noted = true;
+                pick_color(ui, &id, row, field, &mut self.settings, layout);
+            }
             _ => {}
         }
-        // The last item of a row with units is their list, and the row has noted and explained its slider.
-        if !of_units {
+        if !noted {
             note_item(ui, row.label, layout);
             tooltip(ui, row.help);
         }
@@ -104,7 +112,7 @@ impl Panel {
         let by_key = ui.is_item_focused()
             && (ui.is_key_pressed_no_repeat(Key::Enter) || ui.is_key_pressed_no_repeat(Key::KeypadEnter));
         let is_drag = matches!(row.widget, Widget::Drag);
-        if heading.types || (clicked && !of_units) || (twice && is_drag) || (by_key && !of_units) {
+        if heading.types || (clicked && !noted) || (twice && is_drag) || (by_key && !noted) {
             self.settings = before.unwrap_or_else(|| self.settings.clone());
             self.typing = Some(Typing::new(setting, &self.settings));
         } else if let Widget::Slider(slider) = &row.widget {
@@ -247,6 +255,37 @@ fn choose(
             }
             note_item(ui, choice.label, layout);
             tooltip(ui, choice.help);
+        }
+    });
+}
+
+/// Draws a patch of the colour. A click opens a window in which another one is chosen.
+fn pick_color(
+    ui: &Ui,
+    id: &str,
+    row: &Row,
+    field: &Field<DVec3>,
+    settings: &mut Settings,
+    layout: &mut Layout,
+) {
+    let mut shown = (field.get)(settings).to_array().map(|channel| to_srgb(channel) as f32);
+    let [width, height] = [ui.calc_item_width(), ui.frame_height()];
+    let [red, green, blue] = shown;
+    let popup = format!("{id} of");
+    let patch = ui.color_button_config(id, [red, green, blue, 1.0]).size([width, height]);
+    if patch.tooltip(false).drag_drop(false).build() {
+        ui.open_popup(&popup);
+    }
+    note_item(ui, row.label, layout);
+    tooltip(ui, row.help);
+    ui.popup(&popup, || {
+        let picker = ui.color_picker3_config("##picker", &mut shown);
+        let picker = picker.side_preview(false).small_preview(false).options(false).display_rgb(false);
+        let changed = picker.display_hex(false).inputs(false).build();
+        note_item(ui, "Picker", layout);
+        if changed {
+            let linear = shown.map(|level| to_linear(level.into()));
+            (field.set)(settings, DVec3::from_array(linear));
         }
     });
 }

@@ -165,6 +165,12 @@ impl OpenWindow {
         if let Some(renderer) = self.loader.renderer() {
             self.graphics.start(renderer?);
         }
+        if self.panel.settings.needs_colors() {
+            // This takes no time, and so the picture follows the hand.
+            if let Err(error) = self.panel.settings.restage() {
+                self.panel.refuse(&error);
+            }
+        }
         let mut set = self.take_ready(size);
         if let Ok(false) = set {
             set = self.graphics.set(&self.panel.settings);
@@ -195,7 +201,20 @@ impl OpenWindow {
     fn take_ready(&mut self, size: [u32; 2]) -> Result<bool> {
         let prepared = match self.loader.next() {
             None => return Ok(false),
-            Some(Ready::Prepared(prepared)) => prepared?,
+            Some(Ready::Prepared(ready)) => {
+                let (mut settings, prepared) = *ready?;
+                if settings.estimator.stage == self.panel.settings.estimator.stage {
+                    // Whatever else has changed meanwhile stays changed.
+                    self.panel.set_stage(&settings.estimator.scene);
+                } else {
+                    // The model has been turned on meanwhile, and is shown as it stood on the way.
+                    settings.estimator.size = size;
+                    self.graphics.set_prepared(&settings, &prepared)?;
+                    self.panel.accepted.settings = settings;
+                    return Ok(false);
+                }
+                prepared
+            }
             Some(Ready::Opened { name, opened: Ok(opened) }) => {
                 let (content, prepared) = *opened;
                 log::debug!("{} {}", telemetry::LOADED, name.display());

@@ -19,7 +19,7 @@ use std::num::NonZeroU32;
 use text::{keyword, lines, name, number_of, three, words};
 
 /// The contents of a file. Every index is within its list.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub(super) struct Obj {
     pub(super) positions: Vec<DVec3>,
     /// The normals: each of length one, or zero where the file's cannot be used.
@@ -38,14 +38,14 @@ pub(super) struct Obj {
 }
 
 /// A triangle of a file.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Face {
     pub(super) corners: [Corner; 3],
     pub(super) material: Option<u32>,
 }
 
 /// A corner of a face.
-#[derive(Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Corner {
     /// Index into the positions.
     pub(super) position: u32,
@@ -54,7 +54,7 @@ pub(super) struct Corner {
 }
 
 /// How often something occurs, and the first line where it does.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub(super) struct Tally {
     pub(super) count: usize,
     pub(super) line: usize,

@@ -22,6 +22,7 @@ use mesh::MeshTable;
 use number::{Count, Extent, LightColor};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use toml::Spanned;
 use view::{ViewTable, view};
 
@@ -136,9 +137,9 @@ impl SceneFile {
             lights,
             materials: Vec::new(),
             material_names: Vec::new(),
-            shapes: Vec::new(),
+            shapes: Arc::new(self.shapes(&list)?),
+            staged: None,
         };
-        scene.shapes = self.shapes(&list)?;
         let of_mesh = |table: &MeshTable| table.material.as_ref().map(|name| list.find(name)).transpose();
         let of_meshes: Vec<Option<u32>> = self.mesh.iter().map(of_mesh).collect::<Result<_, _>>()?;
         (scene.materials, scene.material_names) = (list.materials, list.names);

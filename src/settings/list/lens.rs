@@ -64,7 +64,7 @@ pub(super) static LENS: &[Setting] = &[
         role: Role::Estimator,
         key: camera("model"),
         access: Access::Choice(by_name!(CameraModel::NAMES, estimator.model), || CAMERAS.to_vec()),
-        row: row(Part::Model, "Camera", "A lens, an ideal pinhole, or a hole without a lens.", Widget::List),
+        row: row(Part::Camera, "Camera", "A lens, an ideal pinhole, or a hole without a lens.", Widget::List),
     },
     Setting {
         flag: "focus-breathing",

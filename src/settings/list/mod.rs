@@ -5,6 +5,7 @@ mod aperture;
 mod camera;
 mod lens;
 mod light;
+mod model;
 mod picture;
 
 use super::{Key, Part, Row, Setting, Slider, Widget};
@@ -19,8 +20,9 @@ pub struct Group {
 
 /// The settings, in the order in which they are applied. A setting that changes others comes before them, so that one
 /// command can choose a known lens and change it.
-pub static GROUPS: [Group; 7] = [
+pub static GROUPS: [Group; 8] = [
     Group { title: "Picture", settings: picture::PICTURE },
+    Group { title: "Model", settings: model::MODEL },
     Group { title: "Camera", settings: camera::CAMERA },
     Group { title: "Lens", settings: lens::LENS },
     Group { title: "Aperture", settings: aperture::APERTURE },

@@ -1,36 +1,34 @@
 //! A scene around a lone mesh: on a ground, framed, lit, and focused on its nearest point.
 
-use super::mesh::{Mesh, Placement};
-use super::{
+use super::{Stage, Staged};
+use crate::error::Result;
+use crate::scene::mesh::{Mesh, Placement};
+use crate::scene::{
     Aperture, Background, Camera, CameraModel, Checker, DEFAULT_SHUTTER, DirectionalLight, Hole, Lens, Light,
     LightKind, Material, Matte, Plane, Scene, Sensor, Shaded, Triangle, View,
 };
-use crate::error::Result;
 use glam::{DVec3, Vec3};
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 const MAX_BOUNCES: u32 = 5;
-const HORIZON: Vec3 = Vec3::new(0.92, 0.9, 0.87);
-const ZENITH: Vec3 = Vec3::new(0.24, 0.44, 0.78);
-const AMBIENT: Vec3 = Vec3::new(0.24, 0.27, 0.32);
-/// A warm key light from the left, with shadows, and a cool fill light from the right, without: the direction of each, its
-/// radiance, and whether it casts shadows.
-const LIGHTS: [(DirectionalLight, Vec3, bool); 2] = [
-    (DirectionalLight { direction: Vec3::new(-0.5, 1.0, 0.65) }, Vec3::new(2.5, 2.35, 2.1), true),
-    (DirectionalLight { direction: Vec3::new(1.0, 0.35, 0.3) }, Vec3::new(0.4, 0.46, 0.55), false),
-];
-const EVEN_SQUARES: Vec3 = Vec3::new(0.62, 0.6, 0.56);
-const ODD_SQUARES: Vec3 = Vec3::new(0.36, 0.37, 0.39);
+pub(super) const AMBIENT: Vec3 = Vec3::new(0.24, 0.27, 0.32);
+/// The radiance of the key light, which is warm and casts shadows.
+const KEY: Vec3 = Vec3::new(2.5, 2.35, 2.1);
+/// The fill light, which is cool and casts no shadows: its direction and its radiance.
+const FILL: (Vec3, Vec3) = (Vec3::new(1.0, 0.35, 0.3), Vec3::new(0.4, 0.46, 0.55));
+pub(super) const EVEN_SQUARES: Vec3 = Vec3::new(0.62, 0.6, 0.56);
+pub(super) const ODD_SQUARES: Vec3 = Vec3::new(0.36, 0.37, 0.39);
 /// Of the ground: ambient and diffuse reflection.
-const GROUND_KA: f32 = 1.0;
-const GROUND_KD: f32 = 1.0;
+pub(super) const GROUND_KA: f32 = 1.0;
+pub(super) const GROUND_KD: f32 = 1.0;
 const SIZE: [u32; 2] = [1280, 720];
 const VFOV_DEGREES: f64 = 34.0;
 /// The direction from the mesh to the eye: a three-quarter view from a little above, which shows the horizon.
 const TO_EYE: DVec3 = DVec3::new(0.52, 0.2, 0.8);
 /// The box around the mesh fills this share of the picture's width or height, at most.
-const FILL: f64 = 0.78;
+const FILLED: f64 = 0.78;
 /// The blur of the mesh's farthest point, as a share of the picture's height.
 const FAR_BLUR: f64 = 0.025;
 /// The widest lens, as a share of the focal distance. Without this limit, a mesh without depth would get a lens of any
@@ -46,19 +44,27 @@ const GAP: f64 = 1e-3;
 /// MAX_LENGTH.
 const DIAGONALS: RangeInclusive<f64> = 1e-4..=1e7;
 
-/// The ground that a mesh stands on.
-struct Ground {
+/// Where a mesh stands, and the ground below it.
+pub(super) struct Ground {
     /// The edge of its squares.
-    square: f64,
-    height: f64,
+    pub(super) square: f64,
+    pub(super) height: f64,
+    /// By which angles about x, y and z the mesh is turned.
+    pub(super) rotate_degrees: DVec3,
     /// The position that the mesh is moved to.
-    position: DVec3,
+    pub(super) position: DVec3,
+    /// The box around the turned mesh, before it is moved.
+    bounds: [DVec3; 2],
 }
 
 impl Ground {
-    /// The ground below a mesh.
-    fn new(mesh: &Mesh) -> Result<Self> {
-        let [lower, upper] = mesh.bounds();
+    /// The ground below a mesh. The mesh turns about the vertical through the middle of its foot.
+    pub(super) fn new(mesh: &Mesh, stage: &Stage) -> Result<Self> {
+        let turned = |rotate_degrees: DVec3| {
+            let placement = Placement::new(1.0, rotate_degrees, DVec3::ZERO);
+            (placement.rotation, mesh.bounds(placement.rotation))
+        };
+        let (upright, [lower, upper]) = turned(stage.up.rotate_degrees(0.0));
         let extent = upper - lower;
         let diagonal = extent.length();
         if !DIAGONALS.contains(&diagonal) {
@@ -73,7 +79,11 @@ impl Ground {
         let square = SQUARE * diagonal;
         let height = 0.5 * square;
         let foot = DVec3::new(lower.x + 0.5 * extent.x, lower.y, lower.z + 0.5 * extent.z);
-        Ok(Self { square, height, position: DVec3::Y * (height + GAP * diagonal) - foot })
+        let rotate_degrees = stage.up.rotate_degrees(stage.turn_degrees.into());
+        let (rotation, bounds) = turned(rotate_degrees);
+        let foot = if rotation == upright { foot } else { rotation * (upright.inverse() * foot) };
+        let position = DVec3::Y * (height + GAP * diagonal) - foot;
+        Ok(Self { square, height, rotate_degrees, position, bounds })
     }
 
     fn material(&self) -> Material {
@@ -82,20 +92,19 @@ impl Ground {
     }
 }
 
-/// The scene, and the text of a scene file of it. Its lengths are those of the mesh's file; the mesh is moved onto the ground.
+/// The scene around a mesh. Its lengths are those of the mesh's file; the mesh is moved onto the ground.
 ///
 /// # Errors
 /// Those of [`Mesh::add_to`]; `Error::Mesh` for a mesh so small or large that f32 cannot show it.
-pub(super) fn around(mesh: &Mesh, name: &str) -> Result<(Scene, String)> {
-    let ground = Ground::new(mesh)?;
-    let placement = Placement::new(1.0, DVec3::ZERO, ground.position);
-    let [lower, upper] = mesh.bounds();
-    let camera = camera(ground.position + 0.5 * (lower + upper), 0.5 * (upper - lower));
+pub(in crate::scene) fn around(mesh: Arc<Mesh>, stage: &Stage, name: &str) -> Result<Scene> {
+    let ground = Ground::new(&mesh, stage)?;
+    let placement = Placement::new(1.0, ground.rotate_degrees, ground.position);
+    let [lower, upper] = ground.bounds;
     let mut scene = Scene {
         name: name.to_owned(),
         source: PathBuf::new(),
         files: Vec::new(),
-        camera,
+        camera: camera(ground.position + 0.5 * (lower + upper), 0.5 * (upper - lower)),
         model: CameraModel::default(),
         lens: Lens::new(0.0, 1.0),
         hole: Hole { diameter: 0.0, upright: false },
@@ -104,67 +113,64 @@ pub(super) fn around(mesh: &Mesh, name: &str) -> Result<(Scene, String)> {
         shutter: DEFAULT_SHUTTER,
         view: View::default(),
         max_bounces: MAX_BOUNCES,
-        background: Background { horizon: HORIZON, zenith: ZENITH },
+        background: background(stage),
         ambient: AMBIENT,
-        lights: LIGHTS.map(light).to_vec(),
-        materials: vec![ground.material()],
-        material_names: vec!["ground".into()],
-        shapes: vec![Shaded::still(Plane { point: DVec3::Y * ground.height, normal: Vec3::Y }, 0)],
+        lights: lights(stage),
+        materials: Vec::new(),
+        material_names: Vec::new(),
+        shapes: Arc::default(),
+        staged: None,
     };
-    mesh.add_to(&mut scene, &placement, None, Vec3::ZERO)?;
+    if stage.ground {
+        let material = scene.add_material("ground", ground.material());
+        let plane = Plane { point: DVec3::Y * ground.height, normal: Vec3::Y };
+        scene.shapes = Arc::new(vec![Shaded::still(plane, material)]);
+    }
+    let material = stage.material(&mesh).map(|(name, material)| scene.add_material(name, material));
+    mesh.add_to(&mut scene, &placement, material, Vec3::ZERO)?;
     scene.lens = lens_for(&scene);
     // A mesh file does not say how large its units are. They are taken as large as gives the lens this f-number.
     let frame_metres = scene.camera.focal_length_mm() / 1000.0;
     scene.camera.metres_per_unit = frame_metres / F_NUMBER / f64::from(scene.lens.diameter);
     scene.hole.diameter = scene.camera.default_hole_diameter();
-    let text = scene_file(&scene, &ground);
-    Ok((scene, text))
+    scene.staged = Some(Staged { mesh, stage: *stage });
+    Ok(scene)
 }
 
-/// The text of a scene file with this stage.
-fn scene_file(scene: &Scene, ground: &Ground) -> String {
-    let numbers = |vector: Vec3| format!("[{}, {}, {}]", vector.x, vector.y, vector.z);
-    let place = |point: DVec3| format!("[{}, {}, {}]", point.x, point.y, point.z);
-    let camera = &scene.camera;
-    let mut text = format!(
-        "size = [{}, {}]\nmax_bounces = {}\n\n[camera]\neye = {}\nlook_at = {}\nvfov_degrees = {:?}\n\
-         metres_per_unit = {:?}\nlens_diameter = {:?}\nfocal_distance = {:?}\n\n\
-         [background]\nhorizon = {}\nzenith = {}\n\n[ambient]\ncolor = {}\nradiance = 1\n",
-        scene.size[0],
-        scene.size[1],
-        scene.max_bounces,
-        place(camera.eye),
-        place(camera.look_at),
-        camera.vfov_degrees(),
-        camera.metres_per_unit,
-        scene.lens.diameter,
-        scene.lens.focal_distance,
-        numbers(scene.background.horizon),
-        numbers(scene.background.zenith),
-        numbers(scene.ambient),
-    );
-    for (DirectionalLight { direction }, radiance, shadows) in LIGHTS {
-        text += &format!(
-            "\n[[directional]]\ndirection = {}\ncolor = {}\nradiance = 1\nshadows = {}\n",
-            numbers(direction),
-            numbers(radiance),
-            shadows
-        );
+/// The scene with its mesh shown in another way. A scene whose shapes stay shares them.
+///
+/// # Errors
+/// As [`around`].
+pub(super) fn again(scene: &Scene, staged: &Staged, stage: &Stage) -> Result<Scene> {
+    let Staged { mesh, stage: before } = staged;
+    if !stage.has_shapes_of(before, mesh) {
+        let new = around(Arc::clone(mesh), stage, &scene.name)?;
+        return Ok(Scene { source: scene.source.clone(), ..new });
     }
-    text += &format!(
-        "\n[matte.ground]\nka = {}\nkd = {}\ncolor = {{ even = {}, odd = {}, size = {:?} }}\n\
-         \n[[plane]]\npoint = [0, {:?}, 0]\nnormal = [0, 1, 0]\nmaterial = \"ground\"\n\
-         \n[[mesh]]\nfile = {}\nposition = {}\n",
-        GROUND_KA,
-        GROUND_KD,
-        numbers(EVEN_SQUARES),
-        numbers(ODD_SQUARES),
-        ground.square,
-        ground.height,
-        toml_edit::value(&scene.name),
-        place(ground.position),
-    );
-    text
+    let mut new = scene.clone();
+    (new.background, new.lights) = (background(stage), lights(stage));
+    if let Some((name, material)) = stage.material(mesh) {
+        // The ground comes first, if there is one.
+        let index = usize::from(stage.ground);
+        (new.materials[index], new.material_names[index]) = (material, name.to_owned());
+    }
+    new.staged = Some(Staged { mesh: Arc::clone(mesh), stage: *stage });
+    Ok(new)
+}
+
+fn background(stage: &Stage) -> Background {
+    Background { horizon: stage.horizon.as_vec3(), zenith: stage.sky.as_vec3() }
+}
+
+/// The key light and the fill light.
+pub(super) fn lights(stage: &Stage) -> Vec<Light> {
+    let directional = |direction, radiance, shadows| Light {
+        kind: LightKind::Directional(DirectionalLight { direction }),
+        radiance,
+        shadows,
+    };
+    let key = directional(stage.light_direction.as_vec3(), KEY * stage.light_strength, true);
+    vec![key, directional(FILL.0, FILL.1, false)]
 }
 
 /// A camera that looks at a box of this centre and half extent, from where all its corners are in the picture.
@@ -186,7 +192,7 @@ fn camera(center: DVec3, half: DVec3) -> Camera {
     let diagonal = 2.0 * half.length();
     let frame = toward(diagonal).frame();
     // The slopes of the lines of sight to the edges of the part of the picture that the box may fill.
-    let highest = FILL * (0.5 * VFOV_DEGREES.to_radians()).tan();
+    let highest = FILLED * (0.5 * VFOV_DEGREES.to_radians()).tan();
     let widest = highest * f64::from(SIZE[0]) / f64::from(SIZE[1]);
     let distance = (0..8).map(|corner| {
         let side = |bit: u32| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
@@ -208,8 +214,4 @@ fn lens_for(scene: &Scene) -> Lens {
     let blur_of_one = (far - near) / far * 0.5 / (0.5 * scene.camera.vfov_radians).tan();
     let ratio = (FAR_BLUR / blur_of_one).min(WIDEST_LENS);
     Lens::new((ratio * near) as f32, near as f32)
-}
-
-fn light((light, radiance, shadows): (DirectionalLight, Vec3, bool)) -> Light {
-    Light { kind: LightKind::Directional(light), radiance, shadows }
 }
