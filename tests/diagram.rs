@@ -812,3 +812,124 @@ fn pixels_of_the_picture_stand_beside_the_circle_of_confusion() {
         }
     }
 }
+
+/// How far a place is from the line through two others.
+fn beside(place: Point, [from, to]: [Point; 2]) -> f32 {
+    let [x, y] = [to[0] - from[0], to[1] - from[1]];
+    ((place[0] - from[0]) * y - (place[1] - from[1]) * x).abs() / x.hypot(y)
+}
+
+/// Catches a focal plane of a tilted lens that stands upright, leans to the other side, or belongs to another section than
+/// the one that is drawn: the device focuses other pixels of this section in the plane that is drawn. And light that does not
+/// meet in one place, blur that is not where light falls, and a depth of field that is not tilted with the plane.
+#[test]
+fn the_focal_plane_is_tilted_as_the_device_focuses() {
+    let gpu = Gpu::new();
+    let mut settings = small("version-4");
+    for (degrees, direction, view, to_scale) in [
+        (8.0, 0.0, View::Side, false),
+        (-5.0, 30.0, View::Side, true),
+        (12.0, 70.0, View::Above, false),
+        (3.0, 200.0, View::Above, true),
+    ] {
+        let lens = &mut settings.estimator.lens;
+        (lens.tilt_degrees, lens.tilt_direction_degrees) = (degrees, direction);
+        let focal_distance = f64::from(lens.focal_distance);
+        let pixel = [25.5, 33.5];
+        let diagram = drawn(&gpu, &settings, pixel).expect("it is drawn");
+        let sharp = [8.0, 12.0];
+        let look = Look { view, to_scale, sharp: Some(sharp), ..LOOK };
+        let drawing = diagram::draw(&diagram, &look);
+        let scale = drawing.scale.expect("a section");
+        let line = lines(&drawing, Role::Focus)[0];
+        let line = [line[0], line[1]];
+        let what = format!("{degrees} degrees to {direction}, {view:?}");
+        let leans = (line[1][0] - line[0][0]).abs();
+        assert!(leans > 3.0, "{what}: it stands upright");
+        let section = &drawing.panes[1];
+        for end in line {
+            assert!(end[0] >= scale.lens[0] && end[1] >= section.min[1] && end[1] <= section.max[1]);
+        }
+        let band = areas(&drawing, Role::Sharp)[0];
+        let mut seen = 0;
+        for step in 0..8_u8 {
+            let along = 6.0 * f32::from(step) + 0.5;
+            let position = if view == View::Above { [along, pixel[1]] } else { [pixel[0], along] };
+            let (depth, p) = drawn(&gpu, &settings, position).expect("it is drawn").focus.expect("a lens");
+            if !(0.0..=40.0).contains(&depth) {
+                continue;
+            }
+            let off = beside(scale.place(p), line);
+            assert!(off < 0.3, "{what}: {position:?} is focused {off} beside the focal plane");
+            // The limits are planes too, whose inverse depth differs by the same amount everywhere.
+            for limit in sharp {
+                let at = p * (depth * (depth.recip() + limit.recip() - focal_distance.recip())).recip();
+                let place = scale.place(at);
+                let edges = (0..band.len()).map(|number| [band[number], band[(number + 1) % band.len()]]);
+                let off = edges.map(|edge| beside(place, edge)).fold(f32::MAX, f32::min);
+                let is_shown = place[1] > section.min[1] && place[1] < section.max[1];
+                assert!(off < 0.3 || !is_shown || at.z < 0.0, "{what}: the limit {limit} is {off} beside it");
+            }
+            seen += 1;
+        }
+        assert!(seen > 2, "{what}: only {seen} pixels");
+
+        let film = scale.x(-diagram.image.film_distance);
+        let crossing = scale.x(-diagram.image.crossing.expect("light meets"));
+        let leaving: Vec<[Point; 2]> = (lines(&drawing, Role::Light).into_iter())
+            .map(|line| [line[line.len() - 2], line[line.len() - 1]])
+            .filter(|[_, to]| to[0] < film)
+            .collect();
+        assert_eq!(leaving.len(), RAYS as usize, "{what}");
+        let heights = range(leaving.iter().map(|line| height(*line, crossing)));
+        assert!(heights[1] - heights[0] < 0.05, "{what}: light meets between {heights:?}");
+        let falls = range(leaving.iter().map(|line| height(*line, film)));
+        let blurs = lines(&drawing, Role::Blur);
+        let blur =
+            blurs.iter().find(|line| line.iter().all(|at| (at[0] - film).abs() < 0.01)).expect("a blur");
+        let blur = range(blur.iter().map(|at| at[1]));
+        assert!((0..2).all(|end| (blur[end] - falls[end]).abs() < 0.1), "{what}: {blur:?}, not {falls:?}");
+    }
+
+    // By the hinge rule, the plane turns around a line that lies f / sin(tilt) below the lens.
+    let estimator = &mut settings.estimator;
+    (estimator.lens.tilt_degrees, estimator.lens.tilt_direction_degrees) = (40.0, 0.0);
+    let diagram = drawn(&gpu, &settings, [32.5, 20.5]).expect("it is drawn");
+    let drawing = diagram::draw(&diagram, &Look { size: [900.0, 900.0], to_scale: true, ..LOOK });
+    let scale = drawing.scale.expect("a section");
+    let (sine, cosine) = 40.0_f64.to_radians().sin_cos();
+    let f = cosine / (diagram.image.film_distance.recip() + f64::from(10.6_f32).recip());
+    let below = scale.lens[1] + (f / sine * scale.fan) as f32;
+    let hinge = dots(&drawing, Role::Focus).into_iter().find(|dot| dot[0] == scale.lens[0]).expect("a hinge");
+    assert!((hinge[1] - below).abs() < 0.1, "the hinge line is at {hinge:?}, not {below}");
+    assert!(texts(&drawing).contains(&"hinge line"), "it has a name");
+    let line = lines(&drawing, Role::Focus)[0];
+    assert!(beside(hinge, [line[0], line[1]]) < 0.1, "the focal plane does not go through the hinge line");
+
+    // The figures of the book.
+    let lens = &mut settings.estimator.lens;
+    (lens.tilt_degrees, lens.tilt_direction_degrees) = (6.0, 0.0);
+    let diagram = drawn(&gpu, &settings, [25.5, 33.5]).expect("it is drawn");
+    let draw = |view| diagram::draw(&diagram, &Look { view, ..LOOK });
+    let drawing = draw(View::CrossSection);
+    let p = dots(&drawing, Role::Focus)[0];
+    let glass = lines(&drawing, Role::Glass)[0];
+    let plane = lines(&drawing, Role::Focus)[0];
+    assert!((plane[1][0] - plane[0][0]).abs() > 20.0 && beside(p, [plane[0], plane[1]]) < 0.2, "{plane:?}");
+    for ray in lines(&drawing, Role::Ray) {
+        let off = [beside(p, [ray[0], ray[1]]), beside(ray[0], [glass[0], glass[1]])];
+        assert!(
+            off[0].max(off[1]) < 0.2,
+            "a ray passes {} beside p, and starts {} beside the lens",
+            off[0],
+            off[1]
+        );
+    }
+    let drawing = draw(View::Layout);
+    let far = lines(&drawing, Role::Focus)[0];
+    let across = |from: usize, to: usize| (far[to][1] - far[from][1]) / (far[to][0] - far[from][0]);
+    assert!(far.len() == 4 && across(1, 2).abs() < 3.0, "the focal plane stands upright: {far:?}");
+    let primary = lines(&drawing, Role::Primary)[0];
+    let p = *dots(&drawing, Role::Focus).last().expect("p");
+    assert!((primary[1][0] - p[0]).hypot(primary[1][1] - p[1]) < 0.2, "the primary ray ends beside p");
+}

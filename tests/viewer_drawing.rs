@@ -324,3 +324,37 @@ fn parts_of_the_drawing_are_moved_by_hand() {
     undo();
     viewer.close();
 }
+
+/// Catches a tilted focal plane that does not stay under the pointer, or that can be grasped only where an upright one would
+/// stand.
+#[test]
+fn a_tilted_focal_plane_is_moved_by_hand() {
+    const PLANE: &str = "Focal plane in the drawing";
+    let viewer = Viewer::start(SIZE, &[&QUICK[..], &["--lens-tilt", "6"]].concat());
+    viewer.wait_until_done();
+    viewer.xdotool("search --class thinlens windowfocus --sync");
+    viewer.click("Optics", |viewer| viewer.controls.borrow().contains_key(PLANE));
+    viewer.rest();
+    let line = || viewer.controls.borrow()[PLANE];
+    let [x, y, right, down] = line();
+    assert!(right.abs() > 20, "it leans by {right}");
+    let level = y + down / 4;
+    let from = [x + right / 4, level];
+    let before = viewer.state.borrow()[1];
+    let place = |level: i32| {
+        let [x, y, right, down] = line();
+        f64::from(x) + f64::from(right) * f64::from(level - y) / f64::from(down)
+    };
+    viewer.point(from);
+    viewer.hands("mousedown 1", 1);
+    for step in 1..=4 {
+        let x = from[0] - 10 * step;
+        viewer.point([x, level]);
+        // The drawing is of the last picture.
+        viewer.wait_for("the focal plane", |_| (place(level) - f64::from(x)).abs() < 2.5);
+    }
+    viewer.hands("mouseup 1", 0);
+    viewer.rest();
+    assert!(viewer.state.borrow()[1] < before, "it is focused nearer");
+    viewer.close();
+}

@@ -1,6 +1,7 @@
 //! The figures of K. Suffern, *Ray Tracing from the Ground Up*, chapter 10, with their letters, for one pixel: to scale,
 //! except that the opening is drawn larger where it would be too small.
 
+use super::border::Border;
 use super::film;
 use super::sheet::{LINE, MARGIN, Name, Pane, Point, Role};
 use super::words::digits;
@@ -51,6 +52,12 @@ impl Paper {
         let middle = [0.5 * (min[0] + max[0]), 0.5 * (min[1] + max[1] - LINE)];
         let [x, y] = [0, 1].map(|axis| ((point[axis] - self.middle[axis]) * self.scale) as f32);
         [middle[0] + x, middle[1] - y]
+    }
+
+    /// What is shown at a place of the sheet.
+    fn shown_at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let [left, top] = self.place(self.middle).map(f64::from);
+        [self.middle[0] + (x - left) / self.scale, self.middle[1] - (y - top) / self.scale]
     }
 
     fn line(&mut self, from: [f64; 2], to: [f64; 2], role: Role, width: f32) {
@@ -111,9 +118,19 @@ impl<'a> Front<'a> {
     /// Where a ray is at a depth, if it starts on the larger opening.
     fn at(&self, ray: &Line, depth: f64) -> DVec3 {
         let [from, to] = *ray;
+        if let Some((_, p)) = self.diagram.focus.filter(|(depth, _)| *depth > 0.0 && self.diagram.is_tilted())
+        {
+            let start = self.start(ray);
+            return start + (p - start) * ((depth - start.z) / (p.z - start.z));
+        }
         let on_ray = from + (to - from) * ((depth - from.z) / (to.z - from.z).max(1e-12));
         let centre = self.diagram.slope * depth;
         centre + self.larger * (on_ray - centre)
+    }
+
+    /// Where a ray starts on the larger opening.
+    fn start(&self, ray: &Line) -> DVec3 {
+        self.larger * ray[0]
     }
 
     /// The second of the two rays: it starts at the top of the opening.
@@ -130,7 +147,11 @@ impl<'a> Front<'a> {
         let [width, height] = self.half_aperture();
         (0..RIM).map(move |corner| {
             let (sin, cos) = (TAU * f64::from(corner) / f64::from(RIM)).sin_cos();
-            DVec3::new(width * cos, height * sin, 0.0)
+            let [x, y] = [width * cos, height * sin];
+            // A tilted opening is perpendicular to its axis.
+            let (tilt, axis) = (self.diagram.plane.tilt, self.diagram.plane.lens_axis());
+            let depth = if self.diagram.is_tilted() { (tilt.x * x + tilt.y * y) / axis.z } else { 0.0 };
+            DVec3::new(x, y, depth)
         })
     }
 
@@ -143,7 +164,28 @@ impl<'a> Front<'a> {
     /// The depth at which the rays end: the focal plane or, without a lens, what is seen.
     fn end(&self) -> f64 {
         let hit = self.diagram.hit.map_or(self.diagram.reach, |hit| hit.z);
-        self.diagram.focus.map_or(hit, |(depth, _)| depth)
+        let focus = self.diagram.focus.map(|(depth, _)| depth);
+        focus.filter(|depth| *depth > 0.0 && depth.is_finite()).unwrap_or(hit)
+    }
+
+    /// The corners of what the picture shows of the focal plane or, without a lens, of an upright plane. If a tilted focal
+    /// plane leads too far, this is a smaller part of it.
+    fn far_picture(&self) -> [DVec3; 4] {
+        let end = self.end();
+        let upright = self.picture(end);
+        if !self.diagram.is_tilted() {
+            return upright;
+        }
+        let (plane, middle) = (self.diagram.plane, self.diagram.slope.truncate());
+        let part = |share: f64| {
+            upright.map(|corner| {
+                let slope = middle + share * (corner.truncate() / end - middle);
+                slope.extend(1.0) / plane.inverse_depth(slope)
+            })
+        };
+        let parts = [1.0, 0.5, 0.25, 0.12, 0.06, 0.03].map(part);
+        let is_near = |corner: &DVec3| corner.z > 0.4 * end && corner.z < 2.5 * end;
+        parts.into_iter().find(|part| part.iter().all(is_near)).unwrap_or(upright)
     }
 
     fn opening(&self) -> &'static str {
@@ -201,7 +243,12 @@ pub(super) fn caption(diagram: &Diagram, view: View) -> String {
             meets.replace("both meet", "all meet")
         ),
     };
-    format!("{text}{larger}")
+    let tilted = if diagram.is_tilted() && view != View::CircleOfConfusion {
+        " The lens is tilted, and the focal plane with it."
+    } else {
+        ""
+    };
+    format!("{text}{larger}{tilted}")
 }
 
 fn side(point: DVec3) -> [f64; 2] {
@@ -214,10 +261,11 @@ fn cross_section(front: &Front<'_>, min: Point, max: Point) -> Pane {
     let [_, half_picture] = diagram.half_picture;
     let [_, half] = front.half_aperture();
     let rays: Vec<[DVec3; 2]> =
-        diagram.fan_up.iter().map(|ray| [0.0, reach].map(|depth| front.at(ray, depth))).collect();
+        diagram.fan_up.iter().map(|ray| [front.start(ray), front.at(ray, reach)]).collect();
     let axis = [[-0.03 * reach, 0.0], [reach, 0.0]];
     let shown = [[d, half_picture], [d, -half_picture], [0.0, half], [0.0, -half]];
-    let marks = diagram.focus.map(|(_, p)| p).into_iter().chain(diagram.hit).filter(|point| point.z <= reach);
+    let marks = diagram.focus.map(|(_, p)| p).into_iter().chain(diagram.hit);
+    let marks = marks.filter(|point| point.z > 0.0 && point.z <= reach);
     let ends = rays.iter().flatten().copied().chain(marks).map(side);
     let mut paper = Paper::new(min, max, axis.into_iter().chain(shown).chain(ends));
     paper.line(axis[0], axis[1], Role::Frame, 1.0);
@@ -225,19 +273,27 @@ fn cross_section(front: &Front<'_>, min: Point, max: Point) -> Pane {
     let focus_role = Role::Focus;
     let mut names = vec![([0.0; 2], Role::Glass, front.opening()), ([d, 0.0], Role::Faint, "view plane")];
     if let Some((f, _)) = diagram.focus {
-        let x = paper.place([f, 0.0])[0];
         let (top, bottom) = (paper.pane.min[1] + LINE + MARGIN, paper.pane.max[1] - 2.0 * LINE);
-        paper.pane.line([x, top], [x, bottom], focus_role, 2.0);
+        let [in_depth, in_height] = diagram.cut_of_plane(false, diagram.plane.inverse_distance);
+        let border = Border::new(|place| {
+            let [depth, height] = paper.shown_at(place);
+            in_depth * depth + in_height * height - 1.0
+        });
+        let lens = paper.place([0.0; 2])[0];
+        if let Some([from, to]) = border.within([lens, top], [paper.pane.max[0], bottom]) {
+            paper.pane.line(from, to, focus_role, 2.0);
+        }
         names.push(([f, 0.0], focus_role, "focal plane"));
     }
     for [from, to] in &rays {
         paper.line(side(*from), side(*to), Role::Ray, 1.0);
     }
     paper.dashed([0.0; 2], side(diagram.slope * reach), Role::Centre);
-    paper.line([0.0, half], [0.0, -half], Role::Glass, 4.0);
+    let [lower, upper] = diagram.rims(false).map(|rim| side(front.larger * rim));
+    paper.line(upper, lower, Role::Glass, 4.0);
     paper.row(paper.head(), &names);
     paper.dot(side(diagram.q), Role::Text, "q");
-    if let Some((f, p)) = diagram.focus {
+    if let Some((f, p)) = diagram.focus.filter(|(depth, _)| *depth > 0.0) {
         paper.dot(side(p), focus_role, "p");
         paper.distance(0, f, focus_role, "f");
     }
@@ -253,9 +309,10 @@ fn layout(front: &Front<'_>, min: Point, max: Point) -> Pane {
     // Seen from the right: what is farther to the right is nearer to the eye.
     let flat = |point: DVec3| [point.z - NEARER * point.x, point.y - NEARER * point.x];
     let (d, end) = (diagram.view_plane, front.end());
-    let planes = [front.picture(d), front.picture(end)];
+    let planes = [front.picture(d), front.far_picture()];
     let primary = front.primary();
-    let [l, r, p] = [0.0, d, end].map(|depth| front.at(&primary, depth));
+    let l = front.start(&primary);
+    let [r, p] = [d, end].map(|depth| front.at(&primary, depth));
     let shown = planes.iter().flatten().copied().chain(front.rim()).chain([l, r, p]);
     let mut paper = Paper::new(min, max, shown.map(flat));
     for corner in planes[1] {
@@ -296,7 +353,7 @@ fn two_rays(front: &Front<'_>, min: Point, max: Point) -> Pane {
     let flat = |point: DVec3| [point.x, point.y];
     let d = diagram.view_plane;
     let primary = front.primary();
-    let [l, r] = [0.0, d].map(|depth| front.at(&primary, depth));
+    let (l, r) = (front.start(&primary), front.at(&primary, d));
     let picture = front.picture(d);
     let mut paper = Paper::new(min, max, picture.into_iter().chain(front.rim()).chain([l, r]).map(flat));
     paper.outline(picture.into_iter().map(flat), Role::Faint);
@@ -323,7 +380,7 @@ fn two_rays(front: &Front<'_>, min: Point, max: Point) -> Pane {
 fn circle_of_confusion(diagram: &Diagram, min: Point, max: Point) -> Pane {
     let image = &diagram.image;
     let v = image.film_distance;
-    let [across, half] = diagram.half_aperture;
+    let [_, half] = diagram.half_aperture;
     let end = image.light_up.first().map_or(-1.08 * v, |line| line[1].z);
     let axis = [[1.04 * end, 0.0], [0.04 * v, 0.0]];
     let ends = image.light_up.iter().flatten().copied().chain([image.p]).map(side);
@@ -337,14 +394,15 @@ fn circle_of_confusion(diagram: &Diagram, min: Point, max: Point) -> Pane {
         paper.line(side(*from), side(*to), Role::Light, 1.0);
     }
     paper.dashed([0.0; 2], side(image.p), Role::Centre);
-    paper.line([0.0, half], [0.0, -half], Role::Glass, 4.0);
-    // The chief ray ends in the middle of the circle of confusion, which has the shape of the aperture.
-    let c = 0.5 * image.blur * (half / across.max(half).max(f64::MIN_POSITIVE));
-    paper.line([-v, image.p.y - c], [-v, image.p.y + c], Role::Blur, 4.0);
+    let [lower, upper] = diagram.rims(false).map(side);
+    paper.line(upper, lower, Role::Glass, 4.0);
+    let falls = diagram.falls(false).map(side);
+    paper.line(falls[0], falls[1], Role::Blur, 4.0);
     let opening = if diagram.model == CameraModel::Hole { "hole" } else { "lens" };
     paper.row(paper.head(), &[([-v, 0.0], Role::Film, "film"), ([0.0; 2], Role::Glass, opening)]);
     paper.dot(side(image.p), Role::Film, "p'");
-    let rim = paper.place([-v, image.p.y - c]);
+    let lowest = if falls[0][1] < falls[1][1] { falls[0] } else { falls[1] };
+    let rim = paper.place(lowest);
     paper.pane.name(rim, Role::Blur, "c");
     if let Some(crossing) = image.crossing.filter(|crossing| -crossing > 1.04 * end) {
         paper.dot(side(-crossing * diagram.slope), Role::Blur, "i");

@@ -1,7 +1,7 @@
 //! The parts of the drawing that can be moved by hand.
 
 use super::section::{GLASS, Scale};
-use super::sheet::Point;
+use super::sheet::{Pane, Point};
 use super::{Diagram, Look};
 use crate::scene::CameraModel;
 
@@ -18,12 +18,12 @@ pub enum Part {
     Film,
 }
 
-/// Where a part can be grasped: anywhere on a line, which is upright, level or as short as a point.
+/// Where a part can be grasped: anywhere on a line, which may be as short as a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Handle {
     /// The part.
     pub part: Part,
-    /// The ends of the line, the left or upper one first.
+    /// The ends of the line.
     pub line: [Point; 2],
 }
 
@@ -31,7 +31,11 @@ impl Handle {
     /// The point of the line that is nearest to a place.
     pub fn nearest(&self, place: Point) -> Point {
         let [from, to] = self.line;
-        [0, 1].map(|axis| place[axis].clamp(from[axis], to[axis]))
+        let way = [0, 1].map(|axis| to[axis] - from[axis]);
+        let along: f32 = (0..2).map(|axis| (place[axis] - from[axis]) * way[axis]).sum();
+        let length_squared = way[0] * way[0] + way[1] * way[1];
+        let share = (along / length_squared.max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
+        [0, 1].map(|axis| from[axis] + share * way[axis])
     }
 
     /// How far a place is from the line.
@@ -41,23 +45,18 @@ impl Handle {
     }
 }
 
-/// What can be moved in a section that is drawn between these heights. Where two parts lie on each other, the first one
-/// in the list is meant.
-pub(super) fn handles(
-    diagram: &Diagram,
-    look: &Look<'_>,
-    scale: &Scale,
-    [top, bottom]: [f32; 2],
-) -> Vec<Handle> {
-    let upright = |part, x: f32| Handle { part, line: [[x, top], [x, bottom]] };
-    let point = diagram.hit.map(|hit| Handle { part: Part::Point, line: [scale.place(hit); 2] });
-    let [x, y] = scale.lens;
-    let half = (diagram.half_aperture[usize::from(!look.above())] * scale.fan) as f32;
-    let rims =
-        [y - half, y + half].map(|y| Handle { part: Part::Rim, line: [[x - GLASS, y], [x + GLASS, y]] });
+/// What can be moved in a section. Where two parts lie on each other, the first one in the list is meant.
+pub(super) fn handles(diagram: &Diagram, look: &Look<'_>, scale: &Scale, section: &Pane) -> Vec<Handle> {
+    let handle = |part, line| Handle { part, line };
+    let point = diagram.hit.map(|hit| handle(Part::Point, [scale.place(hit); 2]));
+    let rims = diagram.rims(look.above()).map(|rim| {
+        let [x, y] = scale.place(rim);
+        handle(Part::Rim, [[x - GLASS, y], [x + GLASS, y]])
+    });
     let has_rim = diagram.model != CameraModel::Pinhole;
-    let plane = diagram.focus.map(|(depth, _)| upright(Part::FocalPlane, scale.x(depth)));
-    let film = upright(Part::Film, scale.x(-diagram.image.film_distance));
+    let plane = scale.focal_plane(diagram, section).map(|line| handle(Part::FocalPlane, line));
+    let film = scale.x(-diagram.image.film_distance);
+    let film = handle(Part::Film, [[film, section.min[1]], [film, section.max[1]]]);
     let rims = rims.into_iter().filter(|_| has_rim);
     point
         .into_iter()

@@ -4,6 +4,7 @@
 //! each in its place on a sheet. The viewer paints that sheet, and [`svg`] writes it to a file, so the two are the same.
 
 mod book;
+mod border;
 mod film;
 mod handle;
 mod outline;
@@ -119,7 +120,7 @@ fn section(diagram: &Diagram, look: &Look<'_>, size @ [width, bottom]: Point) ->
     let others: Vec<Diagram> =
         look.kept.into_iter().flatten().map(|depth| diagram.with_point_at(depth)).collect();
     let ([above, section, below], scale) = section::draw(diagram, &others, look, [film_left, bottom]);
-    let handles = handle::handles(diagram, look, &scale, [section.min[1], section.max[1]]);
+    let handles = handle::handles(diagram, look, &scale, &section);
     let mut film = film::draw(diagram, &others, [film_left, 0.0], [film_left + side, bottom]);
     film.line([film_left, 0.0], [film_left, bottom], Role::Frame, 1.0);
     let shown = film::shown(diagram, &others);

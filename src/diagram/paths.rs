@@ -6,9 +6,9 @@
 
 use super::outline::{Outline, Section, outlines};
 use crate::renderer::{LensRay, Picked};
-use crate::scene::{CameraModel, Opening};
+use crate::scene::{CameraModel, FocalPlane, Opening};
 use crate::settings::Estimator;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// The view plane is drawn at this fraction of the distance to what is looked at. Only angles matter on it.
 const VIEW_PLANE_SHARE: f64 = 0.45;
@@ -53,6 +53,8 @@ pub struct Diagram {
     pub q: DVec3,
     /// The depth in which the pixel is in focus, which is that of the focal plane, and the point p where the centre ray meets it. `None` without a lens.
     pub focus: Option<(f64, DVec3)>,
+    /// Where the lens is in focus.
+    pub plane: FocalPlane,
     /// The point where the centre ray hits a surface, if it hits one.
     pub hit: Option<DVec3>,
     /// Whether `hit` is another point on the centre ray than the device found.
@@ -149,6 +151,7 @@ impl Diagram {
             half_picture: [half_height * width / height, half_height],
             q: slope * view_plane,
             focus,
+            plane,
             hit,
             is_moved: false,
             film_is_free: !(has_lens && camera.focus_breathing),
@@ -188,11 +191,41 @@ impl Diagram {
     /// Where the point is whose light is drawn, if there is a focal plane.
     pub fn side(&self) -> Option<Side> {
         let ((focal_distance, _), hit) = self.focus.zip(self.hit)?;
-        Some(match hit.z {
+        Some(match hit.z.recip() - focal_distance.recip() {
             _ if self.image.blur_pixels <= SHARP => Side::InFocus,
-            depth if depth < focal_distance => Side::InFront,
+            // A tilted lens may be in focus behind itself, and then everything is too near.
+            nearer if nearer > 0.0 => Side::InFront,
             _ => Side::Behind,
         })
+    }
+
+    /// The points of the rim of the lens or hole that a section cuts: the lower or left one, and the other one.
+    pub(super) fn rims(&self, above: bool) -> [DVec3; 2] {
+        let fan = if above { &self.fan_across } else { &self.fan_up };
+        [fan.first(), fan.last()].map(|ray| ray.map_or(DVec3::ZERO, |ray| ray[0]))
+    }
+
+    /// Between which points of the film the light falls that a section shows.
+    pub(super) fn falls(&self, above: bool) -> [DVec3; 2] {
+        let light = if above { &self.image.light_across } else { &self.image.light_up };
+        let on_film = |[from, to]: &Line| {
+            *from + (*to - *from) * ((-self.image.film_distance - from.z) / (to.z - from.z))
+        };
+        [light.first(), light.last()].map(|line| line.map_or(self.image.p, on_film))
+    }
+
+    /// Whether the lens is tilted.
+    pub(super) fn is_tilted(&self) -> bool {
+        self.focus.is_some() && self.plane.tilt != DVec2::ZERO
+    }
+
+    /// In a section, the points in focus are those with `a z + b h = 1`, where `z` is their depth and `h` how far they are
+    /// above or to the right of the axis. Gives `a` and `b` of the plane that is in focus at this depth on the axis, for
+    /// the same lens.
+    pub(super) fn cut_of_plane(&self, above: bool, inverse_distance: f64) -> [f64; 2] {
+        let (slope, plane) = (self.slope, self.plane.slope);
+        let [across, along] = if above { [plane.y * slope.y, plane.x] } else { [plane.x * slope.x, plane.y] };
+        [inverse_distance + across, along]
     }
 
     /// Follows light from `hit` through the points of the lens where the primary rays start.

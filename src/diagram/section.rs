@@ -1,10 +1,11 @@
 //! The section: film, lens, focal plane and object from left to right, cut along the centre ray.
 
+use super::border::{Border, rectangle};
 use super::sheet::{LINE, MARGIN, Name, Pane, Point, Role};
 use super::words::{depth, digits, meeting, millimetres, pixels};
 use super::{Diagram, Line, Look};
 use crate::scene::CameraModel;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// The share of the width that the side of the film takes, unless the drawing is to scale.
 const FILM_SIDE: f64 = 0.38;
@@ -14,6 +15,8 @@ const FAN_SHARE: f64 = 0.56;
 const SLOPE_SHARE: f64 = 0.36;
 /// The share of the side of the film that stays free behind it.
 const BEHIND_FILM: f64 = 1.06;
+/// A length on the sheet that nobody sees.
+const UNSEEN: f64 = 0.02;
 /// The thickness of the lens.
 pub(super) const GLASS: f32 = 7.0;
 
@@ -94,6 +97,14 @@ impl Scale {
         self.place_flat(point.z, self.aside(point))
     }
 
+    /// Where a ray is drawn. At the depth of the lens it may have a bend, because depths behind it have another scale.
+    fn way(&self, [from, to]: Line) -> Vec<Point> {
+        let crosses = (from.z < 0.0) != (to.z < 0.0);
+        let is_seen = from.z.abs().min(to.z.abs()) * self.behind.max(self.in_front) > UNSEEN;
+        let bend = (crosses && is_seen).then(|| self.place(from + (to - from) * (from.z / (from.z - to.z))));
+        [self.place(from)].into_iter().chain(bend).chain([self.place(to)]).collect()
+    }
+
     /// The horizontal place at which a depth is drawn.
     pub fn x(&self, depth: f64) -> f32 {
         self.lens[0] + (depth * if depth < 0.0 { self.behind } else { self.in_front }) as f32
@@ -108,6 +119,42 @@ impl Scale {
     /// How far above or below the centre of the lens a vertical place is.
     pub fn height_at_lens(&self, y: f32) -> f64 {
         f64::from((y - self.lens[1]).abs()) / self.fan
+    }
+
+    /// What is drawn at a place in front of the lens: its slopes to the right and upwards from the lens, and its depth.
+    /// `slope` has those of the centre ray.
+    pub fn seen_at(&self, [x, y]: Point, slope: DVec2) -> (DVec2, f64) {
+        let depth = self.depth(x);
+        let down = f64::from(y - self.lens[1]);
+        let up = if self.above { down } else { -down };
+        let aside = self.slope + (up / depth - self.slope * self.rise) / self.fan;
+        (if self.above { DVec2::new(aside, slope.y) } else { DVec2::new(slope.x, aside) }, depth)
+    }
+
+    /// Where the plane is drawn that is in focus at this depth on the axis. What is farther away is on the positive side.
+    fn border(&self, diagram: &Diagram, inverse_distance: f64) -> Border {
+        let [in_depth, in_height] = diagram.cut_of_plane(self.above, inverse_distance);
+        Border::new(|[x, y]| {
+            let depth = (x - f64::from(self.lens[0])) / self.in_front;
+            let down = y - f64::from(self.lens[1]);
+            let up = if self.above { down } else { -down };
+            let height = self.slope * depth + (up - self.slope * depth * self.rise) / self.fan;
+            in_depth * depth + in_height * height - 1.0
+        })
+    }
+
+    /// Where the focal plane is drawn in a section: the ends of a line.
+    pub(super) fn focal_plane(&self, diagram: &Diagram, section: &Pane) -> Option<[Point; 2]> {
+        diagram.focus?;
+        let border = self.border(diagram, diagram.plane.inverse_distance);
+        border.within([self.lens[0], section.min[1]], section.max)
+    }
+
+    /// The hinge line, if a section shows it: the focal plane of a tilted lens turns around it.
+    fn hinge(&self, diagram: &Diagram, section: &Pane) -> Option<Point> {
+        let [_, in_height] = diagram.cut_of_plane(self.above, 0.0);
+        let at = self.place_flat(0.0, in_height.recip());
+        (diagram.is_tilted() && at[1] > section.min[1] && at[1] < section.max[1]).then_some(at)
     }
 
     fn place_flat(&self, depth: f64, aside: f64) -> Point {
@@ -183,19 +230,23 @@ pub(super) fn draw(
         .into_iter()
         .collect();
     if let Some([near, far]) = look.sharp {
-        let band = [within(near), within(far)];
-        pane.rectangle([band[0], top], [band[1], bottom], Role::Sharp);
+        let [from, to] = [near, far].map(|depth| scale.border(diagram, depth.recip()));
+        let band = to.before(&from.beyond(&rectangle([scale.lens[0], top], [right, bottom])));
+        let [start, end] = [f32::min, f32::max].map(|nearer| band.iter().map(|at| at[0]).reduce(nearer));
+        let middle = start.zip(end).map_or(right, |(start, end)| 0.5 * (start + end));
+        pane.area(band, Role::Sharp);
         let far = if far.is_finite() { digits(far, 3) } else { "infinity".into() };
-        let name = format!("sharp from {} to {far}", digits(near, 3));
-        names_below.push(Name::new(0.5 * (band[0] + band[1]), Role::SharpName, [name, "sharp".into()]));
+        let on_axis = if diagram.is_tilted() { " on the axis" } else { "" };
+        let name = format!("sharp{on_axis} from {} to {far}", digits(near, 3));
+        names_below.push(Name::new(middle, Role::SharpName, [name, "sharp".into()]));
     }
     below.row(bottom + 0.5 * LINE, names_below);
     below.row(bottom + 1.5 * LINE, vec![Name::new(0.0, Role::Faint, [scale.words(), "magnified".into()])]);
 
     pane.line([0.0, scale.lens[1]], [right, scale.lens[1]], Role::Frame, 1.0);
     pane.line([film, top], [film, bottom], Role::Film, 2.0);
-    if let Some((depth, _)) = diagram.focus {
-        pane.line([scale.x(depth), top], [scale.x(depth), bottom], Role::Focus, 2.0);
+    if let Some([from, to]) = scale.focal_plane(diagram, &pane) {
+        pane.line(from, to, Role::Focus, 2.0);
     }
     for other in others {
         lit(&mut pane, other, other.light_role(false), look, &scale);
@@ -207,14 +258,19 @@ pub(super) fn draw(
         marks(&mut pane, other, [role; 2], look, &scale);
     }
     marks(&mut pane, diagram, [diagram.light_role(others.is_empty()), Role::Blur], look, &scale);
+    if let Some(hinge) = scale.hinge(diagram, &pane) {
+        pane.dot(hinge, 3.5, Role::Focus);
+        pane.name(hinge, Role::Focus, "hinge line");
+    }
 
-    above.row(0.5 * top, names(diagram, others, &scale, right));
+    above.row(0.5 * top, names(diagram, others, &scale, &pane));
     ([above, pane, below], scale)
 }
 
 /// The names above the section. Where there is little room, film and lens keep their bare names, and depths are numbers in
 /// the colours of their points.
-fn names(diagram: &Diagram, others: &[Diagram], scale: &Scale, right: f32) -> Vec<Name> {
+fn names(diagram: &Diagram, others: &[Diagram], scale: &Scale, section: &Pane) -> Vec<Name> {
+    let right = section.max[0];
     let within = |depth: f64| scale.x(depth).clamp(0.0, right);
     let film_distance = diagram.image.film_distance;
     let film = format!("film, {}", millimetres(film_distance * diagram.mm_per_unit));
@@ -228,12 +284,20 @@ fn names(diagram: &Diagram, others: &[Diagram], scale: &Scale, right: f32) -> Ve
         Name::new(scale.lens[0], Role::Glass, opening_texts),
     ];
     if let Some((focal_distance, _)) = diagram.focus {
-        let is_shown = scale.x(focal_distance) <= right;
-        let name = if is_shown { "focal plane" } else { "focal plane, farther away" };
-        let whole = format!("{name}: {}", depth(diagram, focal_distance));
-        let number = digits(focal_distance, 3);
-        let texts = [whole, format!("focal plane: {number}"), number];
-        names.push(Name::new(within(focal_distance), Role::Focus, texts));
+        let line = scale.focal_plane(diagram, section);
+        let (whole, number) = (depth(diagram, focal_distance), digits(focal_distance, 3));
+        let texts = if diagram.is_tilted() && !(focal_distance > 0.0 && focal_distance.is_finite()) {
+            // In this direction the lens is in focus nowhere in front of it.
+            vec!["focal plane".into()]
+        } else if diagram.is_tilted() {
+            vec![format!("focal plane, here at {whole}"), format!("focal plane: {number}"), number]
+        } else if line.is_some() {
+            vec![format!("focal plane: {whole}"), format!("focal plane: {number}"), number]
+        } else {
+            vec![format!("focal plane, farther away: {whole}"), format!("focal plane: {number}"), number]
+        };
+        let x = line.map_or(right, |[top, _]| top[0]);
+        names.push(Name::new(x, Role::Focus, texts));
     }
     if let Some(hit) = diagram.hit {
         let name = match diagram.material.as_str() {
@@ -270,9 +334,8 @@ fn objects(pane: &mut Pane, diagram: &Diagram, look: &Look<'_>, scale: &Scale) {
 
 fn rays(pane: &mut Pane, diagram: &Diagram, is_alone: bool, look: &Look<'_>, scale: &Scale) {
     let fan = fan(diagram, look.above());
-    let mut line = |[from, to]: Line, role: Role| pane.line(scale.place(from), scale.place(to), role, 1.0);
     for ray in &fan {
-        line(*ray, Role::Ray);
+        pane.lines(scale.way(*ray), Role::Ray, 1.0);
     }
     lit(pane, diagram, diagram.light_role(is_alone), look, scale);
     let image = &diagram.image;
@@ -287,28 +350,36 @@ fn lit(pane: &mut Pane, diagram: &Diagram, role: Role, look: &Look<'_>, scale: &
         return;
     };
     let arriving = fan(diagram, look.above()).into_iter().map(|ray| [hit, ray[0]]);
-    for [from, to] in arriving.chain(light(diagram, look.above())) {
-        pane.line(scale.place(from), scale.place(to), role, 1.0);
+    for ray in arriving.chain(light(diagram, look.above())) {
+        pane.lines(scale.way(ray), role, 1.0);
     }
 }
 
 /// Draws the lens, or the hole, and the wall around it.
 fn opening(pane: &mut Pane, diagram: &Diagram, look: &Look<'_>, scale: &Scale, [top, bottom]: [f32; 2]) {
-    let [x, y] = scale.lens;
-    let half = (diagram.half_aperture[usize::from(!look.above())] * scale.fan) as f32;
-    if diagram.model == CameraModel::ThinLens && half > 0.0 {
-        let side = |sign: f32| {
-            (-8..=8_i8).map(move |step| {
+    let rims = diagram.rims(look.above());
+    let x = scale.lens[0];
+    let ends = rims.map(|rim| scale.place(rim)[1]);
+    let [upper, lower] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+    if diagram.model == CameraModel::ThinLens && upper < lower {
+        // From the centre of the lens to one rim, on one side. A tilted lens may have a bend in the middle of the drawing,
+        // because depths behind it have another scale.
+        let side = |rim: DVec3, sign: f32| {
+            (0..=8_u8).map(move |step| {
                 let share = f32::from(step) / 8.0;
-                [x + sign * GLASS * (1.0 - share * share), y + sign * share * half]
+                let [x, y] = scale.place(rim * f64::from(share));
+                [x + sign * GLASS * (1.0 - share * share), y]
             })
         };
-        let glass: Vec<Point> = side(1.0).chain(side(-1.0)).collect();
-        pane.area(glass.clone(), Role::GlassInside);
-        pane.outline(glass, Role::Glass, 1.5);
+        for rim in rims {
+            pane.area(side(rim, 1.0).chain(side(rim, -1.0).rev()).collect(), Role::GlassInside);
+        }
+        let around = side(rims[0], 1.0).rev().chain(side(rims[1], 1.0).skip(1));
+        let back = side(rims[1], -1.0).rev().skip(1).chain(side(rims[0], -1.0).skip(1));
+        pane.outline(around.chain(back).collect(), Role::Glass, 1.5);
     }
-    let gap = half.max(1.0);
-    for [from, to] in [[top, y - gap], [y + gap, bottom]] {
+    let middle = 0.5 * (upper + lower);
+    for [from, to] in [[top, upper.min(middle - 1.0)], [lower.max(middle + 1.0), bottom]] {
         if from < to {
             pane.line([x, from], [x, to], Role::Frame, 3.0);
         }
@@ -330,18 +401,15 @@ fn opening_name(diagram: &Diagram) -> (&'static str, Option<String>) {
 /// Marks the object's point, and in the second colour the place where light meets, and the blur on the film.
 fn marks(pane: &mut Pane, diagram: &Diagram, [role, on_film]: [Role; 2], look: &Look<'_>, scale: &Scale) {
     let image = &diagram.image;
-    if let Some((_, p)) = diagram.focus {
+    if let Some((_, p)) = diagram.focus.filter(|(depth, _)| *depth > 0.0) {
         pane.dot(scale.place(p), 3.0, Role::Focus);
     }
     let Some(hit) = diagram.hit else {
         return;
     };
     pane.dot(scale.place(hit), 4.0, role);
-    let axis = usize::from(!look.above());
-    let widest = diagram.half_aperture[0].max(diagram.half_aperture[1]).max(f64::MIN_POSITIVE);
-    let half = 0.5 * image.blur * (diagram.half_aperture[axis] / widest) * scale.fan;
-    let [x, y] = scale.place(image.p);
-    pane.line([x, y - half as f32], [x, y + half as f32], on_film, 4.0);
+    let [from, to] = diagram.falls(look.above()).map(|point| scale.place(point));
+    pane.line(from, to, on_film, 4.0);
     if let Some(crossing) = image.crossing {
         let [x, y] = scale.place(-crossing * diagram.slope);
         pane.dot([x, y], 3.5, on_film);

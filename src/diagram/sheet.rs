@@ -225,7 +225,11 @@ impl Pane {
     }
 
     pub(super) fn line(&mut self, from: Point, to: Point, role: Role, width: f32) {
-        self.shapes.push(Shape::Line { points: vec![from, to], role, width, closed: false, dashed: false });
+        self.lines(vec![from, to], role, width);
+    }
+
+    pub(super) fn lines(&mut self, points: Vec<Point>, role: Role, width: f32) {
+        self.shapes.push(Shape::Line { points, role, width, closed: false, dashed: false });
     }
 
     pub(super) fn dashed(&mut self, from: Point, to: Point, role: Role) {

@@ -58,21 +58,22 @@ impl Optics {
 
     /// Moves a part to a place of the drawing.
     fn move_part(&mut self, held: &HeldPart, [x, y]: [f32; 2], estimator: &mut Estimator) {
-        let lens = held.scale.lens[0];
-        let in_front = || held.scale.depth(x.max(lens + CLOSEST));
+        let lens_x = held.scale.lens[0];
         match held.part {
             Part::Point => {
-                self.pin.depth = Some(in_front().clamp(f64::from(MIN_LENGTH), f64::from(MAX_LENGTH)));
+                let depth = held.scale.depth(x.max(lens_x + CLOSEST));
+                self.pin.depth = Some(depth.clamp(f64::from(MIN_LENGTH), f64::from(MAX_LENGTH)));
             }
             Part::FocalPlane => {
                 let [least, most] = FOCAL_DISTANCES;
                 let Estimator { camera, lens, .. } = estimator;
-                if let Some(distance) = camera.focal_distance_at(lens, held.slope, in_front()) {
+                let (slope, depth) = held.scale.seen_at([x.max(lens_x + CLOSEST), y], held.slope);
+                if let Some(distance) = camera.focal_distance_at(lens, slope, depth) {
                     lens.focal_distance = (distance as f32).clamp(least, most);
                 }
             }
             Part::Film => {
-                let distance = -held.scale.depth(x.min(lens - CLOSEST));
+                let distance = -held.scale.depth(x.min(lens_x - CLOSEST));
                 let [least, most] = FOCAL_LENGTHS_MM;
                 let focal_length = (held.mm_per_distance * distance).clamp(least, most);
                 estimator.camera.set_focal_length_mm(focal_length);
