@@ -79,7 +79,7 @@ fn measure(device: &Arc<Device>, name: &str) -> Result<()> {
     let (mut two, mut one) = (Vec::new(), Vec::new());
     for round in 0..=ROUNDS {
         let first_sample = SAMPLES * u32::try_from(round).expect("few rounds");
-        let lattice = Batch::whole(first_sample, u32::MAX, SAMPLES).lattice(SIZE);
+        let lattice = Batch::whole(first_sample, u32::MAX, SAMPLES, SAMPLES).lattice(SIZE);
         let push = TracePush {
             camera: Camera::new(estimator),
             lattice,

@@ -48,7 +48,7 @@ fn record(gpu: &Gpu, settings: &Settings) -> Result<Vec<Vec<[f32; 4]>>> {
     let one = |first_sample| {
         let push = TracePush {
             camera: Camera::new(estimator),
-            lattice: Batch::whole(first_sample, *samples, 1).lattice(estimator.size),
+            lattice: Batch::whole(first_sample, *samples, 1, 1).lattice(estimator.size),
             seed: estimator.seed,
             max_bounces: estimator.max_bounces,
             first_sample,

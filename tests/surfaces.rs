@@ -269,6 +269,11 @@ struct Shown {
     rays: u32,
 }
 
+/// A lamp that many rays meet. The one among everything else is small.
+const LAMP: &str = "[camera]\neye = [0, 0, 4]\nlook_at = [0, 0, 0]\nvfov_degrees = 40\nlens_diameter = 0\n\
+                    focal_distance = 4\n[emissive.lamp]\nradiance = 3\ncolor = [0.9, 0.6, 0.2]\n\
+                    [[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"lamp\"\n";
+
 /// Catches a wrong factor, light, shadow, checker, highlight, mirror or sky: the radiance along rays
 /// from everywhere in scenes with every kind of thing. At edges, of shapes, shadows and checks, a few
 /// may differ, and are counted.
@@ -280,6 +285,7 @@ fn rays_show_what_the_oracles_show() {
             ("everything", scene_of(EVERYTHING), 3.0),
             ("everything and smooth triangles", everything_and_smooth_triangles(), 3.0),
             ("room", scene_of(ROOM), 0.95),
+            ("lamp", scene_of(LAMP), 3.0),
         ] {
             for max_bounces in [0_u32, 1, 4] {
                 let rays = rays(extent, 8192);

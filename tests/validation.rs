@@ -45,7 +45,7 @@ fn record_two_passes(gpu: &Gpu, barrier: bool) {
     let traced = trace.bind(&scene, &aperture, &batch, &counters, &adaptive, 0).expect("bindings");
     let accumulated = accumulate.bind(&batch, &film, &adaptive, 0).expect("bindings");
 
-    let sample = Batch::whole(0, 1, 1);
+    let sample = Batch::interleaved(1);
     let trace_push = TracePush {
         camera: Camera::new(estimator),
         lattice: sample.lattice(estimator.size),

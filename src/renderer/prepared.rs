@@ -1,7 +1,7 @@
 //! The parts that settings need on a device besides the images: pipelines and buffers. They take long to make, and any
 //! thread can make them while another one renders.
 
-use super::schedule::{self, MAX_BATCH};
+use super::schedule::{self, LARGEST_BATCH};
 use crate::error::{Error, Result};
 use crate::gpu_types::{
     Counters, SceneColors, SceneData, aperture_sums, differ_in_numbers, film_constants, lens_constants,
@@ -183,7 +183,7 @@ impl Preparer {
         let rays = if estimator.dispersion() == 0.0 { 1 } else { 3 };
         let steps = rays * scene.max_loop_steps(estimator.max_bounces);
         let Some(most) = self.device.traits().max_loop_steps else {
-            return Ok(MAX_BATCH);
+            return Ok(LARGEST_BATCH);
         };
         schedule::largest_batch(steps, most).ok_or_else(|| {
             Error::OutOfRange(format!(

@@ -9,6 +9,13 @@ use crate::interface::{GROUP_SIZE, LISTED_ROW_GROUPS, PREVIEW_SITE, PREVIEW_STRI
 /// Samples per pixel in a batch, after the first batches of a picture.
 pub const MAX_BATCH: u32 = 64;
 
+/// A batch is at least this part of the samples that a pixel has. If the film had many more samples than a batch, a
+/// batch would change its mean by less than an f32 can tell, and rounding would decide where the mean goes.
+const LEAST_PART: u32 = 1024;
+
+/// No batch grows beyond this many samples, so that a row of workgroups stays a short submission.
+pub const LARGEST_BATCH: u32 = 4096;
+
 /// Where the first batches end. The first ones are short so that there is something to see soon. Later ones are longer,
 /// because every batch has a fixed cost.
 const FIRST_CUTS: [u32; 5] = [1, 4, 16, 32, MAX_BATCH];
@@ -40,8 +47,12 @@ pub fn listed_lattice(size: [u32; 2], at: [u32; 2]) -> Lattice {
 /// The largest batch, a power of two, whose loops take at most `most` steps, if each sample takes `steps`. `None` if
 /// one sample takes too many already.
 pub fn largest_batch(steps: u64, most: u64) -> Option<u32> {
-    let most = u32::try_from(most / (steps + 1)).ok()?;
-    most.checked_ilog2().map(|power| 1 << power)
+    power_of_two_within(u32::try_from(most / (steps + 1)).ok()?).map(|batch| batch.min(LARGEST_BATCH))
+}
+
+/// The largest power of two that is not larger than the number.
+fn power_of_two_within(number: u32) -> Option<u32> {
+    number.checked_ilog2().map(|power| 1 << power)
 }
 
 /// The order in which the pixels of a cell of 4 x 4 pixels get their first sample in a preview. The first four are
@@ -132,10 +143,13 @@ impl Cursor {
 
 impl Batch {
     /// The batch of every pixel that starts at `first_sample`. Batches end at 1, 4, 16, 32 and 64 samples, as far as
-    /// `max_batch`, then at every multiple of `max_batch`, and at `target`.
-    pub fn whole(first_sample: u32, target: u32, max_batch: u32) -> Self {
+    /// `max_batch`, then at every multiple of `max_batch`, and at `target`. A picture of very many samples has larger
+    /// batches, up to `largest`. Both are powers of two.
+    pub fn whole(first_sample: u32, target: u32, max_batch: u32, largest: u32) -> Self {
         let early = FIRST_CUTS.into_iter().find(|cut| *cut > first_sample && *cut <= max_batch);
-        let cut = early.unwrap_or((first_sample / max_batch + 1) * max_batch);
+        let least = power_of_two_within(first_sample / LEAST_PART).unwrap_or(1);
+        let step = least.clamp(max_batch, largest);
+        let cut = early.unwrap_or_else(|| (first_sample / step + 1).saturating_mul(step));
         Self { first_sample, sample_count: cut.min(target) - first_sample, stride: 1, phase: 0 }
     }
 
@@ -244,7 +258,7 @@ mod tests {
         let cuts = |target, max_batch| {
             let (mut cuts, mut at) = (Vec::new(), 0);
             while at < target {
-                at = Batch::whole(at, target, max_batch).end();
+                at = Batch::whole(at, target, max_batch, LARGEST_BATCH).end();
                 cuts.push(at);
             }
             cuts
@@ -255,8 +269,24 @@ mod tests {
         assert_eq!(cuts(9, 2), [1, 2, 4, 6, 8, 9]);
         assert_eq!(cuts(3, 1), [1, 2, 3]);
         // From a count that an earlier, lower target left behind.
-        assert_eq!(Batch::whole(20, 64, 16).end(), 32);
-        assert_eq!(Batch::whole(70, 200, MAX_BATCH).end(), 128);
+        assert_eq!(Batch::whole(20, 64, 16, 64).end(), 32);
+        assert_eq!(Batch::whole(70, 200, MAX_BATCH, MAX_BATCH).end(), 128);
+    }
+
+    /// Catches a batch that is too small a part of the film for an f32, or one that a device cannot trace.
+    #[test]
+    fn batches_grow_with_the_samples_of_a_pixel() {
+        let end = |first, largest| Batch::whole(first, u32::MAX, MAX_BATCH, largest).end() - first;
+        assert_eq!(end(65_536, LARGEST_BATCH), 64);
+        assert_eq!(end(131_072, LARGEST_BATCH), 128);
+        assert_eq!(end(1_048_576, LARGEST_BATCH), 1024);
+        assert_eq!(end(1_048_576, 256), 256);
+        assert_eq!(end(1 << 30, LARGEST_BATCH), LARGEST_BATCH);
+        assert_eq!(end(u32::MAX - 1, LARGEST_BATCH), 1);
+        // From a count that is no multiple of the batch.
+        assert_eq!(end(1_048_577, LARGEST_BATCH), 1023);
+        // With jitter over several pixels, there is one sample in a batch.
+        assert_eq!(Batch::whole(1_048_576, u32::MAX, 1, 1).end(), 1_048_577);
     }
 
     /// Catches a phase listed twice: one pixel would be sampled twice and another never.
@@ -324,7 +354,7 @@ mod tests {
     #[test]
     fn rows_are_visited_once_and_everywhere() {
         for height in [1, 8, 9, 48, 63, 719, 720, 2160, 16384] {
-            let lattice = Batch::whole(0, 1, 1).lattice([64, height]);
+            let lattice = Batch::interleaved(1).lattice([64, height]);
             let count = lattice.row_count;
             let visited: HashSet<_> = (0..count).map(|visit| lattice.visited_row(visit)).collect();
             assert_eq!(visited.len(), count as usize, "{height}");
@@ -352,7 +382,8 @@ mod tests {
     fn batches_stay_within_the_loop_limit() {
         for steps in [1, 2, 413, 4000, 30_000, 65_534] {
             let batch = u64::from(largest_batch(steps, 65_535).expect("one sample fits"));
-            assert!(batch * (steps + 1) <= 65_535 && 2 * batch * (steps + 1) > 65_535);
+            assert!(batch * (steps + 1) <= 65_535);
+            assert!(2 * batch * (steps + 1) > 65_535 || batch == u64::from(LARGEST_BATCH));
         }
         assert_eq!(largest_batch(65_535, 65_535), None);
     }

@@ -43,7 +43,7 @@ impl Renderer {
             Stage::Accumulate => accumulate_cost(estimator.jitter),
             Stage::Select => SELECT_COST,
         };
-        let of_stage = if stage == Stage::Trace { batch } else { Batch::whole(0, 1, 1) };
+        let of_stage = if stage == Stage::Trace { batch } else { Batch::interleaved(1) };
         let of_picture = of_stage.lattice(estimator.size);
         let [width, height] = of_stage.lattice_size(estimator.size);
         let is_listed = self.standing.list.is_some();
@@ -106,16 +106,11 @@ impl Renderer {
                 _ => Batch::interleaved(1),
             };
         }
-        let longest = self.max_batch.min(self.largest_batch);
-        let max_batch = if reach(estimator.jitter) > 0 {
-            // A sample that lands in a neighbouring pixel is found by its index, so there is one sample in a batch.
-            1
-        } else if estimator.is_adaptive() {
-            longest.min(schedule::SELECT_EVERY)
-        } else {
-            longest
-        };
-        Batch::whole(self.standing.samples, self.settings.samples, max_batch)
+        // A sample that lands in a neighbouring pixel is found by its index, so there is one sample in a batch.
+        let largest = if reach(estimator.jitter) > 0 { 1 } else { self.largest_batch };
+        let usual =
+            if estimator.is_adaptive() { self.max_batch.min(schedule::SELECT_EVERY) } else { self.max_batch };
+        Batch::whole(self.standing.samples, self.settings.samples, usual.min(largest), largest)
     }
 
     /// The largest possible number of pixels that are still traced.
