@@ -44,8 +44,9 @@ pub mod binding {
         MATERIALS,
         /// The lights.
         LIGHTS,
-        /// The sky, the ambient light, and the radius of the scene.
-        ENVIRONMENT,
+        /// What rays need of the scene wherever they are: the sky, the numbers of things, and all lights and listed shapes
+        /// of a small scene.
+        SCENE,
         /// The nodes and shapes of the tree, then the shapes in the list.
         RECORDS,
         /// The corner normals of the tree's shapes.
@@ -82,8 +83,8 @@ pub mod constant {
         SHADOW_LIGHT_COUNT,
         /// The number of materials.
         MATERIAL_COUNT,
-        /// Whether invocations copy the scene to variables before they start.
-        SCENE_IS_KEPT,
+        /// Where lights and listed shapes are read from: one of [`scene_in`](super::scene_in).
+        SCENE_PLACE,
         /// The record of the list's first shape.
         LIST_BEGIN,
         /// The kinds of shapes in the scene: a bit for each [`shape`](super::shape).
@@ -127,6 +128,19 @@ pub mod sampler {
         SOBOL,
         /// The Sobol sequence, arranged so that errors of neighbouring pixels offset each other.
         BLUE_NOISE,
+    }
+}
+
+/// Where invocations read the lights, the listed shapes and their numbers from.
+pub mod scene_in {
+    numbered! {
+        /// From buffers of any size. This is for scenes that are not small: see [`SMALL_SCENE`](super::SMALL_SCENE).
+        BUFFERS,
+        /// From a uniform buffer. The numbers are constants.
+        UNIFORMS,
+        /// From variables, to which each invocation copies them and the materials before it starts. The numbers are
+        /// constants.
+        VARIABLES,
     }
 }
 
@@ -236,6 +250,7 @@ pub const LISTS: &[(&str, &[&str])] = &[
     ("BINDING_", binding::NAMES),
     ("ID_", constant::NAMES),
     ("SAMPLER_", sampler::NAMES),
+    ("SCENE_IN_", scene_in::NAMES),
     ("APERTURE_", aperture::NAMES),
     ("SHAPE_", shape::NAMES),
     ("MATERIAL_", material::NAMES),
@@ -276,6 +291,8 @@ numbers! {
     STACK_INDEX_BITS: U32(u32) = 25;
     /// The shifts of this many entries of the stack are spelled out. A loop shifts the entries below them.
     SPELLED_OUT_STACK: U32(u32) = 20;
+    /// A scene is small if it has at most so many listed shapes, lights and materials.
+    SMALL_SCENE: U32(u32) = 64;
     /// The most blades of an iris.
     MAX_BLADES: U32(u32) = 16;
     /// The coarsest preview traces the pixels [`PREVIEW_SITE`] + [`PREVIEW_STRIDE`] i.

@@ -97,13 +97,17 @@ fn what_changes_is_made_anew() {
     }
 }
 
-/// Catches a number of things that pipelines are compiled for on a GPU: opening another scene would compile them anew.
+/// Catches a number of things that pipelines are compiled for on a GPU where it gains nothing: opening another scene
+/// would compile them anew. Numbers that loops are unrolled for are worth it.
 #[test]
-fn scenes_of_the_same_kinds_share_their_pipelines_on_gpus() {
-    let constants = |gpu: &Gpu, count: usize| {
+fn pipelines_are_compiled_for_few_numbers_on_gpus() {
+    let constants = |gpu: &Gpu, spheres: usize, others: usize| {
         let mut toml = MOVING.to_owned();
-        for i in 0..count {
-            toml += &format!("[[sphere]]\ncenter = [{i}, 0, -3]\nradius = 0.4\nmaterial = \"m{i}\"\n");
+        for i in 0..spheres {
+            let material = i % others;
+            toml += &format!("[[sphere]]\ncenter = [{i}, 0, -3]\nradius = 0.4\nmaterial = \"m{material}\"\n");
+        }
+        for i in 0..others {
             toml += &format!("[matte.m{i}]\nka = 0.1\nkd = 0.5\ncolor = [1, 1, 1]\n");
             toml += &format!("[[point]]\nposition = [{i}, 5, 0]\nradiance = 1\nshadows = {}\n", i % 2 == 0);
         }
@@ -111,7 +115,13 @@ fn scenes_of_the_same_kinds_share_their_pipelines_on_gpus() {
         SceneBuffers::new(gpu.device(), &scene).expect("a scene").constants().to_vec()
     };
     let gpu = Gpu::used_as(Some(Traits::GPU));
-    assert_eq!(constants(&gpu, 2), constants(&gpu, 40), "scenes without a tree");
-    assert_eq!(constants(&gpu, 90), constants(&gpu, 120), "scenes with one");
-    assert_ne!(constants(&gpu, 40), constants(&gpu, 90), "a tree is compiled in only where there is one");
+    assert_ne!(constants(&gpu, 2, 3), constants(&gpu, 40, 3), "the loops over few shapes are unrolled");
+    assert_ne!(constants(&gpu, 2, 3), constants(&gpu, 2, 4), "the loops over few lights are unrolled");
+    assert_eq!(constants(&gpu, 90, 3), constants(&gpu, 120, 3), "shapes in a tree");
+    assert_eq!(constants(&gpu, 40, 70), constants(&gpu, 50, 80), "many lights and materials");
+    assert_ne!(
+        constants(&gpu, 40, 70),
+        constants(&gpu, 90, 70),
+        "a tree is compiled in only where there is one"
+    );
 }

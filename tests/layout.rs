@@ -25,7 +25,8 @@ fn twins() -> Vec<Twin> {
         twin!("Light", Light, [radiance, kind, position_or_direction]),
         twin!("Environment", Environment, [horizon, zenith, ambient, bounding_radius]),
         twin!("SceneCounts", SceneCounts, [list_ends, list_begin, lights, shadow_lights, max_tree_steps]),
-        twin!("EnvironmentBuffer", EnvironmentBuffer, [environment, counts]),
+        twin!("ShapeRecord", ShapeRecord, [position, material, a, kind, b, index]),
+        twin!("Scene", SceneBlock, [environment, counts, small_lights, small_list]),
         twin!("Counters", Counters, [rays, rejected_samples, listed_samples]),
         twin!(
             "Camera",

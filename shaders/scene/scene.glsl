@@ -14,21 +14,25 @@
 // Whether a thing is of this kind. Where the scene has one kind alone, the compiler knows the answer.
 #define IS_OF_KIND(kinds, kind_of_thing, kind) (HAS_KIND(kinds, kind) && ((kinds) == 1u << (kind) || (kind_of_thing) == (kind)))
 
-// Where the scene is copied, the numbers of lights and materials are specialization constants, so that loops over them
-// can unroll. For shapes, the constants are where the range of each kind ends in the list: see build.rs. Where the scene
-// is not copied, all of these are read from SceneCounts, so that the pipelines of one scene serve every other scene that
-// has things of the same kinds.
+// Where lights and listed shapes are read from. A software device copies those of a small scene to variables before any
+// control flow: Mesa's loads from a buffer lane by lane inside loops and branches, and once for all lanes outside of
+// them, which makes rays about three times as fast. A GPU would run out of registers, so there they are in a uniform
+// buffer.
+layout(constant_id = ID_SCENE_PLACE) const uint SCENE_PLACE = SCENE_IN_BUFFERS;
+// 1 where the scene is copied to variables, otherwise 0.
+const uint SCENE_IS_KEPT = SCENE_PLACE >> 1u;
+
+// In a small scene, the numbers of lights and materials are specialization constants, so that loops over them can unroll.
+// For shapes, the constants are where the range of each kind ends in the list: see build.rs. In other scenes, all of
+// these are read from SceneCounts, so that the pipelines of one scene serve every other scene that has things of the
+// same kinds.
 layout(constant_id = ID_LIGHT_COUNT) const uint LIGHT_COUNT = 1u;
 layout(constant_id = ID_SHADOW_LIGHT_COUNT) const uint SHADOW_LIGHT_COUNT = 1u; // these come first, and cast shadows
 layout(constant_id = ID_MATERIAL_COUNT) const uint MATERIAL_COUNT = 1u;
-// Whether the scene is copied to variables before any control flow. Mesa's software device loads from
-// a buffer lane by lane inside loops and branches, and once for all lanes outside of them, which makes
-// rays about three times as fast. A GPU would run out of registers.
-layout(constant_id = ID_SCENE_IS_KEPT) const uint SCENE_IS_KEPT = 0u;
 
 // The numbers of things that the shaders loop over.
 struct SceneCounts {
-    uint list_ends[SHAPE_KIND_COUNT]; // where each kind's range ends, counted from the first shape of the list
+    uvec4 list_ends[(SHAPE_KIND_COUNT + 3u) / 4u]; // where each kind's range ends, counted from the list's first shape
     uint list_begin; // the record of the list's first shape
     uint lights;
     uint shadow_lights; // these come first, and cast shadows
@@ -49,17 +53,19 @@ layout(set = 0, binding = BINDING_VELOCITIES) uniform usamplerBuffer velocities;
 layout(constant_id = ID_LIST_BEGIN) const uint LIST_BEGIN = 0u; // the record of the list's first shape
 layout(set = 0, binding = BINDING_MATERIALS, std430) readonly buffer Materials { Material materials[]; };
 layout(set = 0, binding = BINDING_LIGHTS, std430) readonly buffer Lights { Light lights[]; };
-layout(set = 0, binding = BINDING_ENVIRONMENT, std430) readonly buffer EnvironmentBuffer {
+layout(set = 0, binding = BINDING_SCENE, std140) uniform Scene {
     Environment environment;
     SceneCounts counts;
+    Light small_lights[SMALL_SCENE]; // of a small scene all lights
+    ShapeRecord small_list[SMALL_SCENE]; // of a small scene all shapes of the list
 };
 
 uint list_begin() { if (SCENE_IS_KEPT == 1u) { return LIST_BEGIN; } return counts.list_begin; }
-uint light_count() { if (SCENE_IS_KEPT == 1u) { return LIGHT_COUNT; } return counts.lights; }
-uint shadow_light_count() { if (SCENE_IS_KEPT == 1u) { return SHADOW_LIGHT_COUNT; } return counts.shadow_lights; }
+uint light_count() { if (SCENE_PLACE == SCENE_IN_BUFFERS) { return counts.lights; } return LIGHT_COUNT; }
+uint shadow_light_count() { if (SCENE_PLACE == SCENE_IN_BUFFERS) { return counts.shadow_lights; } return SHADOW_LIGHT_COUNT; }
 // Where a kind of shapes ends in the list; known is the constant.
 uint range_end(const uint kind, const uint known) {
-    return SCENE_IS_KEPT == 1u ? known : counts.list_ends[kind];
+    return SCENE_PLACE == SCENE_IN_BUFFERS ? counts.list_ends[kind / 4u][kind % 4u] : known;
 }
 uint range_begin(const uint kind, const uint known) { return kind == 0u ? 0u : range_end(kind - 1u, known); }
 
@@ -131,6 +137,9 @@ ShapeRecord get_listed(const uint i) {
     if (SCENE_IS_KEPT == 1u) {
         return kept_shapes[i];
     }
+    if (SCENE_PLACE == SCENE_IN_UNIFORMS) {
+        return small_list[i];
+    }
     return fetch_shape(list_begin() + i);
 }
 vec3 get_velocity(const uint i, const ShapeRecord shape) {
@@ -139,7 +148,15 @@ vec3 get_velocity(const uint i, const ShapeRecord shape) {
     }
     return fetch_velocity(shape.index);
 }
-Light get_light(const uint i) { if (SCENE_IS_KEPT == 1u) { return kept_lights[i]; } return lights[i]; }
+Light get_light(const uint i) {
+    if (SCENE_IS_KEPT == 1u) {
+        return kept_lights[i];
+    }
+    if (SCENE_PLACE == SCENE_IN_UNIFORMS) {
+        return small_lights[i];
+    }
+    return lights[i];
+}
 Environment get_environment() { if (SCENE_IS_KEPT == 1u) { return kept_environment; } return environment; }
 
 // The index differs from invocation to invocation, so the copies are gone through instead of indexed.

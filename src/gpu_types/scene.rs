@@ -3,7 +3,7 @@
 use super::denormal::flush_denormals;
 use super::shape::on_device;
 use super::{Environment, Light, Material, ShapeRecord, TreeNode};
-use crate::interface::shape;
+use crate::interface::{SMALL_SCENE, shape};
 use crate::scene::{Bvh, Node, Record, SceneRef, Shaded, Shape, Triangle};
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
@@ -52,23 +52,58 @@ pub struct SceneColors {
     pub reflects: bool,
 }
 
+/// The number of kinds of shapes, with room up to whole vectors of four.
+const LIST_ENDS: usize = shape::NAMES.len().next_multiple_of(4);
+
 /// `SceneCounts` of scene.glsl.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub struct SceneCounts {
-    pub list_ends: [u32; shape::NAMES.len()],
+    /// Where the range of each kind ends in the list.
+    pub list_ends: [u32; LIST_ENDS],
     pub list_begin: u32,
     pub lights: u32,
     pub shadow_lights: u32,
     pub max_tree_steps: u32,
 }
 
-/// `EnvironmentBuffer` of scene.glsl.
+/// The block `Scene` of scene.glsl.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
-pub struct EnvironmentBuffer {
+pub struct SceneBlock {
     pub environment: Environment,
     pub counts: SceneCounts,
+    /// Of a small scene all lights, otherwise zeros.
+    pub small_lights: [Light; SMALL_SCENE as usize],
+    /// Of a small scene all shapes of the list, otherwise zeros.
+    pub small_list: [ShapeRecord; SMALL_SCENE as usize],
+}
+
+impl SceneBlock {
+    /// The block of a scene with these colors, and with the records of this list.
+    pub fn new(colors: &SceneColors, counts: SceneCounts, list: &[[u32; 12]]) -> Self {
+        let mut block = Self {
+            environment: colors.environment,
+            counts,
+            small_lights: [Light::zeroed(); SMALL_SCENE as usize],
+            small_list: [ShapeRecord::zeroed(); SMALL_SCENE as usize],
+        };
+        if colors.make_small(list) {
+            block.small_lights[..colors.lights.len()].copy_from_slice(&colors.lights);
+            for (at, shape) in block.small_list.iter_mut().zip(list) {
+                *at = bytemuck::cast(*shape);
+            }
+        }
+        block
+    }
+}
+
+impl SceneColors {
+    /// Whether a scene with these colors and this list has few enough listed shapes, materials and lights to be read from
+    /// a uniform buffer, and for its loops to be unrolled.
+    pub fn make_small(&self, list: &[[u32; 12]]) -> bool {
+        list.len().max(self.materials.len()).max(self.lights.len()) <= SMALL_SCENE as usize
+    }
 }
 
 impl SceneData {
@@ -79,6 +114,11 @@ impl SceneData {
         let smooth = scene.of_kind::<Triangle>().any(|(triangle, _)| triangle.normals.is_some());
         let bounded = scene.shapes.iter().filter(|of| of.shape.is_bounded()).count();
         Self::with_tree(scene, shutter, smooth || bounded > MAX_LISTED_SHAPES)
+    }
+
+    /// The records of the shapes that are in the list.
+    pub fn list(&self) -> &[[u32; 12]] {
+        &self.records[self.counts.list_begin as usize..]
     }
 
     /// Does the same as [`SceneData::new`], but the caller decides whether the bounded shapes go into a tree.
@@ -106,7 +146,7 @@ impl SceneData {
         let mut records: Vec<[u32; 12]> = nodes.iter().map(record).collect();
         records.extend(of_list.iter().map(|shape| bytemuck::cast::<_, [u32; 12]>(*shape)));
         let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
-        let mut list_ends = [0; shape::NAMES.len()];
+        let mut list_ends = [0; LIST_ENDS];
         for (end, kind) in list_ends.iter_mut().zip(0..) {
             *end = count(of_list.partition_point(|shape| shape.kind <= kind));
         }

@@ -1,15 +1,11 @@
 //! A scene's buffers on the device, and upper bounds for the work that its rays take.
 
 use crate::error::{Error, Result};
-use crate::gpu_types::{EnvironmentBuffer, SceneColors, SceneCounts, SceneData};
-use crate::interface::{SPELLED_OUT_STACK, STACK_INDEX_BITS, binding, constant, shape};
-use crate::vulkan::{Binding, Buffer, Device, TexelBuffer};
+use crate::gpu_types::{SceneBlock, SceneColors, SceneCounts, SceneData};
+use crate::interface::{SPELLED_OUT_STACK, STACK_INDEX_BITS, binding, constant, scene_in, shape};
+use crate::vulkan::{Binding, Buffer, Device, TexelBuffer, UniformBuffer};
 use bytemuck::Pod;
 use std::sync::Arc;
-
-/// With more listed shapes, materials or lights than this, invocations do not copy the scene to variables: the unrolled
-/// code would grow too long.
-const MAX_KEPT: usize = 64;
 
 /// As many records as the bits for a record's index can tell apart in the stack of bvh.glsl.
 const MAX_RECORDS: usize = 1 << STACK_INDEX_BITS;
@@ -38,8 +34,8 @@ struct ShapeBuffers {
     normals: Binding,
     velocities: Binding,
     counts: SceneCounts,
-    /// The number of shapes in the list.
-    listed: usize,
+    /// The records of the shapes in the list.
+    list: Vec<[u32; 12]>,
     /// A bit for each kind of shape.
     kinds: u32,
     has_normals: bool,
@@ -73,7 +69,7 @@ impl SceneBuffers {
             normals: texels(device, "corner normals", &scene.normals)?,
             velocities: texels(device, "velocities", &scene.velocities)?,
             counts: SceneCounts { max_tree_steps, ..scene.counts },
-            listed: scene.records.len() - scene.counts.list_begin as usize,
+            list: scene.list().to_vec(),
             kinds: scene.shape_kinds,
             has_normals: !scene.normals.is_empty(),
             moves: scene.moves,
@@ -99,41 +95,47 @@ impl SceneBuffers {
 
     fn assemble(device: &Arc<Device>, shapes: Arc<ShapeBuffers>, colors: &SceneColors) -> Result<Self> {
         let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
-        let few = shapes.listed.max(colors.materials.len()).max(colors.lights.len()) <= MAX_KEPT;
-        let kept = device.traits().keeps_scene && few;
+        let place = match colors.make_small(&shapes.list) {
+            true if device.traits().keeps_scene => scene_in::VARIABLES,
+            true => scene_in::UNIFORMS,
+            false => scene_in::BUFFERS,
+        };
         let (lights, shadow_lights) = (count(colors.lights.len()), colors.shadow_lights);
         let counts = SceneCounts { lights, shadow_lights, ..shapes.counts };
-        let environment = EnvironmentBuffer { environment: colors.environment, counts };
+        let block = UniformBuffer::upload(device, "scene", &SceneBlock::new(colors, counts, &shapes.list))?;
         let bindings = vec![
             (binding::MATERIALS, buffer(device, "materials", &colors.materials)?),
             (binding::LIGHTS, buffer(device, "lights", &colors.lights)?),
-            (binding::ENVIRONMENT, buffer(device, "environment", &[environment])?),
+            (binding::SCENE, Binding::Uniform(Arc::new(block))),
             (binding::RECORDS, shapes.records.clone()),
             (binding::CORNER_NORMALS, shapes.normals.clone()),
             (binding::VELOCITIES, shapes.velocities.clone()),
         ];
-        // The shaders read the numbers from the buffer where the scene is not copied: then the same constants, and so
-        // the same pipelines, serve many scenes.
-        let known = |number: u32| if kept { number } else { 0 };
+        // Numbers that shaders read from the buffer stay out of the constants, so that the same pipelines serve many
+        // scenes.
+        let known_if = |known: bool, number: u32| if known { number } else { 0 };
+        let kept = place == scene_in::VARIABLES;
+        let small = place != scene_in::BUFFERS;
         let tree_depth =
             if kept { shapes.tree_depth } else { shapes.tree_depth.next_multiple_of(STACK_STEP) };
         let mut constants = vec![
-            (constant::LIGHT_COUNT, known(counts.lights)),
-            (constant::SHADOW_LIGHT_COUNT, known(counts.shadow_lights)),
-            (constant::MATERIAL_COUNT, known(count(colors.materials.len())).max(1)),
-            (constant::SCENE_IS_KEPT, kept.into()),
+            (constant::LIGHT_COUNT, known_if(small, counts.lights)),
+            (constant::SHADOW_LIGHT_COUNT, known_if(small, counts.shadow_lights)),
+            (constant::MATERIAL_COUNT, known_if(kept, count(colors.materials.len())).max(1)),
+            (constant::SCENE_PLACE, place),
             (constant::SCENE_MOVES, shapes.moves.into()),
             (constant::SCENE_IS_SHIFTED, shapes.shifted.into()),
             (constant::TREE_DEPTH, tree_depth),
-            (constant::LIST_BEGIN, known(counts.list_begin)),
+            (constant::LIST_BEGIN, known_if(kept, counts.list_begin)),
             (constant::SHAPE_KINDS, shapes.kinds),
             (constant::MATERIAL_KINDS, colors.material_kinds),
             (constant::TEXTURE_KINDS, colors.texture_kinds),
             (constant::LIGHT_KINDS, colors.light_kinds),
             (constant::HAS_CORNER_NORMALS, shapes.has_normals.into()),
-            (constant::MAX_TREE_STEPS, known(counts.max_tree_steps)),
+            (constant::MAX_TREE_STEPS, known_if(kept, counts.max_tree_steps)),
         ];
-        constants.extend((constant::SHAPE_END..).zip(counts.list_ends.map(known)));
+        let ends = &counts.list_ends[..shape::NAMES.len()];
+        constants.extend((constant::SHAPE_END..).zip(ends.iter().map(|end| known_if(small, *end))));
         Ok(Self { shapes, bindings, constants, counts, tree_depth, reflects: colors.reflects })
     }
 

@@ -32,6 +32,12 @@ pub struct TexelBuffer {
     pub(super) buffer: Buffer,
 }
 
+/// A buffer that shaders read at indices that are the same for all invocations. On GPUs this is faster than a storage
+/// buffer, but there is room for little.
+pub struct UniformBuffer {
+    pub(super) buffer: Buffer,
+}
+
 impl Buffer {
     /// A buffer of at least `size` bytes, its contents undefined.
     ///
@@ -104,6 +110,18 @@ impl TexelBuffer {
         // SAFETY: the buffer is of this device, and every Vulkan device can read this format so.
         let view = unsafe { device.raw.create_buffer_view(&info, None) };
         Ok(Self { view: check("creating a buffer view", view)?, buffer })
+    }
+}
+
+impl UniformBuffer {
+    /// A buffer on the device of at least `size` bytes, its contents undefined.
+    ///
+    /// # Errors
+    /// [`Error::Limit`] where it is larger than the device can bind.
+    pub(super) fn new(device: &Arc<Device>, name: &'static str, size: u64) -> Result<Self> {
+        device.limits.check_uniform(name, size)?;
+        let usage = vk::BufferUsageFlags::UNIFORM_BUFFER;
+        Ok(Self { buffer: Buffer::with_usage(device, name, size, Residence::Device, usage)? })
     }
 }
 

@@ -152,6 +152,7 @@ impl Recording<'_> {
         // Reads of texel buffers count as sampled reads.
         let reads = vk::AccessFlags2::SHADER_STORAGE_READ
             | vk::AccessFlags2::SHADER_SAMPLED_READ
+            | vk::AccessFlags2::UNIFORM_READ
             | vk::AccessFlags2::TRANSFER_READ;
         let barrier = [vk::MemoryBarrier2::default()
             .src_stage_mask(stages)

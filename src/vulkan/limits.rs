@@ -6,8 +6,12 @@ use crate::error::{Error, Result};
 use ash::vk;
 
 /// How many resources of each kind a shader binds, at most.
-pub const NEEDED: [(ResourceKind, u32); 3] =
-    [(ResourceKind::Buffer, 6), (ResourceKind::Image, 4), (ResourceKind::Texels, 5)];
+pub const NEEDED: [(ResourceKind, u32); 4] = [
+    (ResourceKind::Buffer, 5),
+    (ResourceKind::Uniform, 1),
+    (ResourceKind::Image, 4),
+    (ResourceKind::Texels, 5),
+];
 
 /// Lavapipe counts the steps of all loops of an invocation together, and silently leaves every loop after so many. A
 /// sample that takes more steps would be wrong.
@@ -39,6 +43,7 @@ impl Traits {
 pub(super) struct Limits {
     image_extent: u32,
     storage_bytes: u32,
+    uniform_bytes: u32,
     texels: u32,
     buffer_bytes: u64,
 }
@@ -53,6 +58,7 @@ impl Limits {
         Self {
             image_extent: limits.max_image_dimension2_d,
             storage_bytes: limits.max_storage_buffer_range,
+            uniform_bytes: limits.max_uniform_buffer_range,
             texels: limits.max_texel_buffer_elements,
             buffer_bytes: maintenance.max_buffer_size,
         }
@@ -76,6 +82,13 @@ impl Limits {
     pub(super) fn check_storage(&self, what: &'static str, bytes: u64) -> Result<()> {
         let limit = Limit { unit: "bytes", name: "maxStorageBufferRange", advice: BUFFER };
         limit.check(what, bytes, self.storage_bytes.into())
+    }
+
+    /// # Errors
+    /// [`Error::Limit`] where a shader cannot bind as much as a uniform buffer.
+    pub(super) fn check_uniform(&self, what: &'static str, bytes: u64) -> Result<()> {
+        let limit = Limit { unit: "bytes", name: "maxUniformBufferRange", advice: SCENE };
+        limit.check(what, bytes, self.uniform_bytes.into())
     }
 
     /// # Errors
@@ -113,6 +126,7 @@ pub(super) fn why_too_small(limits: &vk::PhysicalDeviceLimits) -> Option<String>
     NEEDED.into_iter().find_map(|(kind, needed)| {
         let (max, what) = match kind {
             ResourceKind::Buffer => (limits.max_per_stage_descriptor_storage_buffers, "storage buffers"),
+            ResourceKind::Uniform => (limits.max_per_stage_descriptor_uniform_buffers, "uniform buffers"),
             ResourceKind::Image => (limits.max_per_stage_descriptor_storage_images, "storage images"),
             ResourceKind::Texels => (limits.max_per_stage_descriptor_sampled_images, "texel buffers"),
         };
@@ -124,8 +138,13 @@ pub(super) fn why_too_small(limits: &vk::PhysicalDeviceLimits) -> Option<String>
 mod tests {
     use super::*;
 
-    const SMALL: Limits =
-        Limits { image_extent: 4096, storage_bytes: 1 << 27, texels: 65_536, buffer_bytes: 1 << 30 };
+    const SMALL: Limits = Limits {
+        image_extent: 4096,
+        storage_bytes: 1 << 27,
+        uniform_bytes: 16_384,
+        texels: 65_536,
+        buffer_bytes: 1 << 30,
+    };
 
     fn words(result: Result<()>) -> String {
         result.expect_err("beyond the limit").to_string()
@@ -152,6 +171,10 @@ mod tests {
                 ["134217732 bytes", "134217728", "maxStorageBufferRange"],
             ),
             (
+                words(SMALL.check_uniform("the scene", 16_385)),
+                ["16385 bytes", "16384", "maxUniformBufferRange"],
+            ),
+            (
                 words(SMALL.check_buffer("the buffer", (1 << 30) + 1)),
                 ["1073741825 bytes", "1073741824", "maxBufferSize"],
             ),
@@ -165,9 +188,10 @@ mod tests {
     /// Catches a device that is taken although it cannot bind what the shaders need.
     #[test]
     fn a_device_that_binds_too_little_is_named() {
-        let [(_, buffers), (_, images), (_, texels)] = NEEDED;
+        let [(_, buffers), (_, uniforms), (_, images), (_, texels)] = NEEDED;
         let mut limits = vk::PhysicalDeviceLimits {
             max_per_stage_descriptor_storage_buffers: buffers,
+            max_per_stage_descriptor_uniform_buffers: uniforms,
             max_per_stage_descriptor_storage_images: images,
             max_per_stage_descriptor_sampled_images: texels,
             ..Default::default()

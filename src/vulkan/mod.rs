@@ -27,7 +27,7 @@ mod timing;
 mod upload;
 mod validation;
 
-pub use buffer::{Buffer, Residence, TexelBuffer};
+pub use buffer::{Buffer, Residence, TexelBuffer, UniformBuffer};
 pub use command::{Commands, Recording};
 pub use device::Device;
 pub use image::Image;

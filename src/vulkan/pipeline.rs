@@ -1,6 +1,6 @@
 //! Compute pipelines, whose layout comes from the shader itself, and what is bound to them.
 
-use super::{Buffer, Device, Image, ResourceKind, ShaderInterface, TexelBuffer, check};
+use super::{Buffer, Device, Image, ResourceKind, ShaderInterface, TexelBuffer, UniformBuffer, check};
 use crate::error::Result;
 use ash::vk;
 use std::sync::Arc;
@@ -40,6 +40,8 @@ pub struct ComputePipeline {
 pub enum Binding {
     /// A storage buffer.
     Buffer(Arc<Buffer>),
+    /// A uniform buffer.
+    Uniform(Arc<UniformBuffer>),
     /// A storage image.
     Image(Arc<Image>),
     /// A buffer read as texels.
@@ -189,11 +191,15 @@ impl BindingSet {
             let of_kind = resources.iter().filter(|(_, resource)| resource.kind() == kind).count();
             u32::try_from(of_kind).expect("few bindings")
         };
-        let sizes: Vec<_> = [ResourceKind::Buffer, ResourceKind::Image, ResourceKind::Texels]
-            .into_iter()
-            .filter(|kind| count(*kind) > 0)
-            .map(|kind| vk::DescriptorPoolSize { ty: kind.descriptor_type(), descriptor_count: count(kind) })
-            .collect();
+        let sizes: Vec<_> =
+            [ResourceKind::Buffer, ResourceKind::Uniform, ResourceKind::Image, ResourceKind::Texels]
+                .into_iter()
+                .filter(|kind| count(*kind) > 0)
+                .map(|kind| vk::DescriptorPoolSize {
+                    ty: kind.descriptor_type(),
+                    descriptor_count: count(kind),
+                })
+                .collect();
         let pool = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
         // SAFETY: the device is valid; the handle goes into its guard before the next call.
         let pool =
@@ -226,6 +232,10 @@ impl BindingSet {
                 buffer = [vk::DescriptorBufferInfo::default().buffer(bound.raw).range(vk::WHOLE_SIZE)];
                 write.buffer_info(&buffer)
             }
+            Binding::Uniform(bound) => {
+                buffer = [vk::DescriptorBufferInfo::default().buffer(bound.buffer.raw).range(vk::WHOLE_SIZE)];
+                write.buffer_info(&buffer)
+            }
             Binding::Image(bound) => {
                 image = [vk::DescriptorImageInfo::default()
                     .image_view(bound.view)
@@ -253,6 +263,7 @@ impl Binding {
     fn kind(&self) -> ResourceKind {
         match self {
             Self::Buffer(_) => ResourceKind::Buffer,
+            Self::Uniform(_) => ResourceKind::Uniform,
             Self::Image(_) => ResourceKind::Image,
             Self::Texels(_) => ResourceKind::Texels,
         }

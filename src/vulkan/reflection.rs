@@ -14,6 +14,8 @@ use std::collections::{BTreeMap, BTreeSet};
 pub enum ResourceKind {
     /// A storage buffer.
     Buffer,
+    /// A uniform buffer.
+    Uniform,
     /// A storage image.
     Image,
     /// A buffer read as texels of four u32.
@@ -52,6 +54,7 @@ impl ResourceKind {
     pub(super) fn descriptor_type(self) -> vk::DescriptorType {
         match self {
             Self::Buffer => vk::DescriptorType::STORAGE_BUFFER,
+            Self::Uniform => vk::DescriptorType::UNIFORM_BUFFER,
             Self::Image => vk::DescriptorType::STORAGE_IMAGE,
             Self::Texels => vk::DescriptorType::UNIFORM_TEXEL_BUFFER,
         }
@@ -98,6 +101,7 @@ impl ShaderInterface {
                 assert_eq!(desc_bind.set(), 0, "there is one descriptor set");
                 let kind = match desc_ty {
                     DescriptorType::StorageBuffer(_) => ResourceKind::Buffer,
+                    DescriptorType::UniformBuffer() => ResourceKind::Uniform,
                     DescriptorType::StorageImage(_) => ResourceKind::Image,
                     DescriptorType::UniformTexelBuffer() => ResourceKind::Texels,
                     other => panic!("no use for {other:?}"),

@@ -1,6 +1,6 @@
 //! Buffers that are made with their contents, which are copied to the device at once.
 
-use super::{Buffer, Commands, Device, Residence, TexelBuffer};
+use super::{Buffer, Commands, Device, Residence, TexelBuffer, UniformBuffer};
 use crate::error::Result;
 use std::sync::Arc;
 
@@ -33,6 +33,18 @@ impl TexelBuffer {
         let texels = Self::new(device, name, size_of_val(data) as u64)?;
         fill(&texels.buffer, bytemuck::cast_slice(data))?;
         Ok(texels)
+    }
+}
+
+impl UniformBuffer {
+    /// A buffer on the device that holds `data`.
+    ///
+    /// # Errors
+    /// [`Error::Limit`](crate::error::Error::Limit) where it is larger than the device can bind.
+    pub fn upload<T: bytemuck::NoUninit>(device: &Arc<Device>, name: &'static str, data: &T) -> Result<Self> {
+        let uniform = Self::new(device, name, size_of_val(data) as u64)?;
+        fill(&uniform.buffer, bytemuck::bytes_of(data))?;
+        Ok(uniform)
     }
 }
 
