@@ -429,7 +429,8 @@ fn a_drawing_of_the_optics_is_saved() {
             "picture.png: it has 100x80 pixels, but the drawing is of a picture with 320x240 pixels",
         ),
         (&["-o", "a.svg", "--picture", "lens.svg"], "lens.svg: it cannot be read"),
-        (&["-o", "lens.png"], "a drawing is a .svg; lens.png is not"),
+        (&["-o", "lens.jpg"], "a drawing is a .svg or a .png; lens.jpg is neither"),
+        (&["-o", "a.png", "--drawing-size", "5000x300"], "must be from 200 to 4096"),
         (
             &["-o", "a.svg", "--pixel", "320,0"],
             "pixel is at 320,0, but must be within the picture's 320x240 pixels",
@@ -446,4 +447,46 @@ fn a_drawing_of_the_optics_is_saved() {
         assert!(ran.code == 2 && ran.stderr.contains(reason), "{more:?}: {}", ran.stderr);
     }
     assert!(!folder.join("a.svg").exists(), "what is refused leaves no file");
+}
+
+/// Catches a PNG of the drawing in other colours or another size than the SVG, or without its letters.
+#[test]
+fn a_drawing_is_saved_as_png() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    for file in ["lens.svg", "lens.png"] {
+        let ran = run(folder, &["diagram", "-q", "-s", "320x240", "--drawing-size", "800x300", "-o", file]);
+        assert_eq!(ran.code, 0, "{}", ran.stderr);
+    }
+    let ([width, height], pixels) = decode_png(&std::fs::read(folder.join("lens.png")).expect("the PNG"));
+    assert_eq!([width, height], [1600, 600]);
+    let pixel = |[x, y]: [f64; 2]| pixels[(2.0 * y) as usize * width as usize + (2.0 * x) as usize];
+    let text = std::fs::read_to_string(folder.join("lens.svg")).expect("the SVG");
+    let document = roxmltree::Document::parse(&text).expect("XML");
+    let with = |attribute: &str, color: &str| {
+        let is = |node: &roxmltree::Node<'_, '_>| node.attribute(attribute) == Some(color);
+        document.descendants().find(is).unwrap_or_else(|| panic!("no {attribute} of {color}"))
+    };
+    // The focal plane is orange, at a place where nothing lies over it.
+    let line = with("stroke", "#ffa826").attribute("points").expect("points");
+    let (x, y) = line.split_whitespace().next().and_then(|point| point.split_once(',')).expect("a place");
+    let [x, y] = [x, y].map(|number| number.parse::<f64>().expect("a number"));
+    assert_eq!(pixel([x, y + 2.0]), [0xff, 0xa8, 0x26]);
+    // Its name is written in the same colour, thinly.
+    let name = with("fill", "#ffa826");
+    let number =
+        |attribute: &str| name.attribute(attribute).expect("a place").parse::<f64>().expect("a number");
+    let [left, base, long] = ["x", "y", "textLength"].map(number);
+    let inked = |from: f64, to: f64| {
+        let columns = (2.0 * from) as usize..(2.0 * to) as usize;
+        let rows = (2.0 * base) as usize - 24..(2.0 * base) as usize;
+        let is_orange = |[red, _, blue]: [u8; 3]| red > 120 && blue < 100;
+        rows.flat_map(|row| columns.clone().map(move |column| row * width as usize + column))
+            .filter(|place| is_orange(pixels[*place]))
+            .count()
+    };
+    let parts = [inked(left, left + 0.5 * long), inked(left + 0.5 * long, left + long + 1.0)];
+    assert!(parts.iter().all(|count| *count > 100), "the letters have {parts:?} pixels");
+    let paper = [0.045, 0.05, 0.065].map(|level: f64| (255.0 * level).round() as u8);
+    assert_eq!(pixel([1.0, 1.0]), paper);
 }

@@ -88,6 +88,13 @@ fn the_drawing_in_the_viewer_is_the_saved_one() {
         );
     };
     saved("the side view", "lens.svg", &[]);
+    viewer.click("Save drawing as PNG", |viewer| viewer.message.borrow().contains("lens.png"));
+    let size = read("lens.svg").ok().and_then(|text| {
+        let size = text.split("viewBox=\"0 0 ").nth(1)?.split('"').next()?.to_owned();
+        size.split(' ').map(|extent| extent.parse().ok()).collect::<Option<Vec<u32>>>()
+    });
+    let png = decode_png(&std::fs::read(viewer.folder.join("lens.png")).expect("a PNG"));
+    assert_eq!(png.0.map(|extent| extent / 2).to_vec(), size.expect("a size"));
     viewer.click("To scale", |_| true);
     viewer.rest();
     saved("the view to scale", "lens-2.svg", &["--to-scale"]);

@@ -196,7 +196,7 @@ pub struct DiagramArgs {
     /// The size of the drawing
     #[arg(long, value_name = "WxH", value_parser = parse_size, default_value = "1100x420")]
     pub drawing_size: [u32; 2],
-    /// The file to save the drawing to
+    /// The file to save the drawing to: .svg, or .png with two pixels for each unit of the size
     #[arg(short, long, value_name = "OUT.svg")]
     pub output: PathBuf,
     /// The device that traces the rays.

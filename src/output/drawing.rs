@@ -1,5 +1,6 @@
 //! Draws the optics of a pixel to a file.
 
+use super::file::write_png;
 use super::headless::position;
 use super::say;
 use crate::diagram::{self, Diagram, KEPT, Look, View, sharp_depths};
@@ -9,6 +10,8 @@ use crate::pending_file::{PendingFile, keep_apart};
 use crate::renderer::{Excerpt, Question, Renderer};
 use crate::settings::{DeviceChoice, Place, Settings};
 use crate::vulkan::{Device, Instance};
+use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::usvg::{Options, Tree};
 use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
@@ -16,6 +19,10 @@ use std::sync::Arc;
 
 /// The smallest and the largest width and height of a drawing.
 const EXTENTS: [u32; 2] = [200, 16384];
+/// The largest width and height of a drawing that becomes a PNG.
+const MAX_PNG: u32 = 4096;
+/// A PNG has so many pixels for each unit of a drawing, so that its letters can be read well.
+const PNG_SCALE: u32 = 2;
 /// The smallest and the largest depth of a point, in scene units.
 const DEPTHS: [f64; 2] = [1e-6, 1e9];
 /// The smallest and the largest number of rays through the lens.
@@ -40,7 +47,7 @@ pub struct DrawingJob {
     pub picture: Option<PathBuf>,
     /// Whether depths and heights have the same scale everywhere.
     pub to_scale: bool,
-    /// The SVG file.
+    /// The SVG or PNG file.
     pub output: PathBuf,
     /// The device that traces the rays.
     pub device: DeviceChoice,
@@ -54,10 +61,14 @@ pub struct DrawingJob {
 /// [`Error::OutOfRange`], those of rendering and of writing, and [`Error::Validation`] if the layer had something to
 /// say.
 pub fn draw_optics(job: &DrawingJob) -> Result<()> {
-    check_name(&job.output)?;
+    let [least, most] = EXTENTS;
+    let extents = match Format::of(&job.output)? {
+        Format::Svg => [least, most],
+        Format::Png => [least, MAX_PNG],
+    };
     for (what, value, [least, most]) in [
-        ("the width of the drawing", job.size[0], EXTENTS),
-        ("the height of the drawing", job.size[1], EXTENTS),
+        ("the width of the drawing", job.size[0], extents),
+        ("the height of the drawing", job.size[1], extents),
         ("rays", job.rays, RAYS),
     ] {
         if !(least..=most).contains(&value) {
@@ -82,20 +93,59 @@ pub fn draw_optics(job: &DrawingJob) -> Result<()> {
     instance.check_validation()
 }
 
-/// Writes a drawing to an SVG file.
+/// Writes a drawing to an SVG file or to a PNG file.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for a name that does not end in `.svg`, or [`Error::Write`].
+/// [`Error::OutOfRange`] for a name that ends neither in `.svg` nor in `.png`, or for a drawing that is too large for a PNG;
+/// or [`Error::Write`].
 pub fn save_drawing(drawing: &diagram::Drawing, path: &Path) -> Result<()> {
-    check_name(path)?;
-    PendingFile::create(path)?.write(diagram::svg(drawing).as_bytes())
+    let (format, text) = (Format::of(path)?, diagram::svg(drawing));
+    match format {
+        Format::Svg => PendingFile::create(path)?.write(text.as_bytes()),
+        Format::Png => {
+            let size = drawing.size.map(|extent| PNG_SCALE * extent.round() as u32);
+            let pixels = painted(&text, size)?;
+            write_png(PendingFile::create(path)?, size, &pixels, None)
+        }
+    }
 }
 
-fn check_name(path: &Path) -> Result<()> {
-    if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("svg")) {
-        return Err(Error::OutOfRange(format!("a drawing is a .svg; {} is not", path.display())));
+/// The format of a saved drawing.
+enum Format {
+    Svg,
+    Png,
+}
+
+impl Format {
+    fn of(path: &Path) -> Result<Self> {
+        let is = |name: &str| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(name));
+        match () {
+            () if is("svg") => Ok(Self::Svg),
+            () if is("png") => Ok(Self::Png),
+            () => Err(Error::OutOfRange(format!(
+                "a drawing is a .svg or a .png; {} is neither",
+                path.display()
+            ))),
+        }
     }
-    Ok(())
+}
+
+/// Paints a drawing, which is given as SVG, in the font of the viewer. Gives red, green, blue and alpha of each pixel.
+fn painted(svg: &str, size @ [width, height]: [u32; 2]) -> Result<Vec<u8>> {
+    let most = PNG_SCALE * MAX_PNG;
+    let pixels = size.iter().all(|extent| (1..=most).contains(extent));
+    let pixmap = pixels.then(|| Pixmap::new(width, height)).flatten();
+    let mut pixmap = pixmap.ok_or_else(|| {
+        Error::OutOfRange(format!(
+            "a PNG of the drawing would have {width}x{height} pixels; it has at most {most} each way"
+        ))
+    })?;
+    let mut options = Options { font_family: "Ubuntu".into(), ..Options::default() };
+    options.fontdb_mut().load_font_data(epaint_default_fonts::UBUNTU_LIGHT.to_vec());
+    let tree = Tree::from_str(svg, &options).expect("the program writes valid SVG");
+    let scale = PNG_SCALE as f32;
+    resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
+    Ok(pixmap.take())
 }
 
 fn draw_on(instance: &Arc<Instance>, job: &DrawingJob) -> Result<()> {

@@ -15,8 +15,8 @@ use crate::settings::Estimator;
 use imgui::{Condition, StyleColor, StyleVar, Ui, WindowFlags};
 use std::path::{Path, PathBuf};
 
-/// The name of a saved drawing. If there is such a file already, the name gets a number.
-const FILE: &str = "lens.svg";
+/// The names of saved drawings. If there is such a file already, the name gets a number.
+const FILES: [&str; 2] = ["lens.svg", "lens.png"];
 /// The smallest and the largest number of rays.
 const RAYS: [u32; 2] = [3, 65];
 /// What the drawing shows.
@@ -79,10 +79,20 @@ impl Optics {
                 match diagram {
                     Some(diagram) => {
                         ui.same_line();
-                        let saves = ui.button("Save##drawing");
-                        note_item(ui, "Save drawing", layout);
-                        tooltip(ui, "Saves the drawing as an SVG file in the current folder.");
+                        let mut saves = None;
+                        for (label, name, file, help) in [
+                            ("Save SVG", "Save drawing", FILES[0], "Saves the drawing as an SVG file in the current folder. It can be enlarged without limit."),
+                            ("Save PNG", "Save drawing as PNG", FILES[1], "Saves the drawing as a PNG file in the current folder, in twice as many pixels."),
+                        ] {
+                            if ui.button(label) {
+                                saves = Some(file);
+                            }
+                            note_item(ui, name, layout);
+                            tooltip(ui, help);
+                            ui.same_line();
+                        }
                         self.keep(ui, diagram, layout);
+                        ui.new_line();
                         let look = Look {
                             size: ui.content_region_avail().map(f32::floor),
                             view: self.view,
@@ -102,8 +112,8 @@ impl Optics {
                             let at = [0, 1].map(|axis| corner[axis] + min[axis]);
                             note(ui, "Pixel in the drawing", at, [max[0] - min[0], max[1] - min[1]], layout);
                         }
-                        if saves {
-                            let file = absolute(Path::new(&unused_name(FILE)));
+                        if let Some(name) = saves {
+                            let file = absolute(Path::new(&unused_name(name)));
                             saved = Some(output::save_drawing(&drawing, &file).map(|()| file));
                         }
                     }
@@ -123,7 +133,6 @@ impl Optics {
             return;
         }
         let free = self.kept.iter_mut().find(|kept| kept.is_none());
-        ui.same_line();
         ui.disabled(free.is_none() || diagram.hit.is_none(), || {
             let help = "Keeps the light of this point in the drawing while you choose the next one: blue in front of the focal plane, white in focus, orange behind it. Two can be kept.";
             if button(ui, "Keep", help, layout)
@@ -132,11 +141,11 @@ impl Optics {
                 *free = Some(hit.z);
             }
         });
-        if self.kept.iter().any(Option::is_some) {
-            ui.same_line();
-            if button(ui, "Forget", "Takes the kept light out of the drawing.", layout) {
-                self.kept = [None; KEPT];
-            }
+        ui.same_line();
+        if self.kept.iter().any(Option::is_some)
+            && button(ui, "Forget", "Takes the kept light out of the drawing.", layout)
+        {
+            self.kept = [None; KEPT];
         }
     }
 
