@@ -8,13 +8,21 @@ use thinlens::{app, bench, interrupt, output, verify};
 
 fn main() -> ExitCode {
     let cli = cli::parse();
-    env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("warn")).init();
+    listen();
     interrupt::install();
     if let Err(error) = run(cli.command.unwrap_or_else(|| Command::View(ViewArgs::default()))) {
         eprintln!("thinlens: {error}");
         return ExitCode::from(error.exit_code());
     }
     ExitCode::SUCCESS
+}
+
+/// Writes the log to standard error, as far as `RUST_LOG` asks for it.
+fn listen() {
+    let log = env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("warn")).build();
+    // Errors of dialogs are heard in any case.
+    log::set_max_level(log.filter().max(log::LevelFilter::Error));
+    log::set_boxed_logger(Box::new(app::DialogLog(log))).expect("there is no other log");
 }
 
 fn run(command: Command) -> Result<()> {

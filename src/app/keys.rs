@@ -1,12 +1,13 @@
 //! Keys that work wherever the pointer is, and the list of all keys.
 
+use super::dialog::Purpose;
 use super::ui::Action;
 use imgui::{Condition, Io, Key, Ui};
 use winit::event::WindowEvent;
 use winit::keyboard::{Key as WinitKey, ModifiersState, NamedKey};
 
 /// What the mouse and the keys do, as shown to the user.
-const LIST: [(&str, &str); 24] = [
+const LIST: [(&str, &str); 25] = [
     ("Right click, F", "focus on what is under the pointer"),
     ("Ctrl + wheel", "move the focal plane"),
     ("Click", "say what is there; while Optics is open, draw its optics"),
@@ -23,6 +24,7 @@ const LIST: [(&str, &str); 24] = [
     ("H", "hide everything but the picture, or show it"),
     ("Ctrl + Z", "undo"),
     ("Ctrl + Shift + Z, Ctrl + Y", "redo"),
+    ("Ctrl + O", "open a file"),
     ("Ctrl + S", "save the picture"),
     ("Ctrl + Shift + S", "save the scene"),
     ("Ctrl + C", "copy the command line that renders it"),
@@ -83,7 +85,8 @@ pub(super) fn pressed(ui: &Ui) -> Option<Action> {
             [Action::Undo, Action::SavePicture]
         };
         let again = [(Key::Z, undo), (Key::Y, Action::Redo)];
-        let once = [(Key::S, save), (Key::C, Action::CopyCommand)];
+        let open = Action::Browse(Purpose::Open);
+        let once = [(Key::O, open), (Key::S, save), (Key::C, Action::CopyCommand)];
         let again = again.into_iter().find(|(key, _)| ui.is_key_pressed(*key));
         again.or_else(|| once.into_iter().find(|(key, _)| pressed(*key)))
     } else {

@@ -3,6 +3,7 @@
 mod area;
 mod clipboard;
 mod content;
+mod dialog;
 mod display;
 mod focus;
 mod graphics;
@@ -25,6 +26,7 @@ mod window;
 mod words;
 mod zoom_lock;
 
+pub use dialog::DialogLog;
 pub use memory::Memory;
 
 use crate::error::{Error, Result};

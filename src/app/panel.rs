@@ -3,6 +3,7 @@
 use super::Options;
 use super::area::Area;
 use super::content::Content;
+use super::dialog::{Dialog, Purpose};
 use super::guide::Guide;
 use super::lesson::{Lesson, Seen};
 use super::memory::Memory;
@@ -18,6 +19,7 @@ use crate::scene::{Aperture, ApertureImage, BUILTINS, Builtin, Depths, Extents, 
 use crate::settings::{Called, Settings};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use winit::window::Window;
 
 /// The largest number of recent files.
 const MAX_RECENT: usize = 8;
@@ -49,6 +51,8 @@ pub(super) struct Panel {
     /// Recent files, with the latest first.
     pub(super) recent: Vec<PathBuf>,
     pub(super) files: Files,
+    /// The dialog of the system that is open.
+    pub(super) dialog: Option<Dialog>,
     /// A file or scene to open, which the loader does not know of yet.
     pub(super) to_open: Option<PathBuf>,
     pub(super) messages: Messages,
@@ -127,6 +131,7 @@ impl Panel {
             offered_image: None,
             recent: options.memory.recent.clone(),
             files: Files::default(),
+            dialog: None,
             to_open: None,
             messages: Messages::default(),
             typing: None,
@@ -434,6 +439,35 @@ impl Panel {
             }
             Err(why) => self.messages.fail(format!("the picture was not rendered: {why}")),
         }
+    }
+
+    /// Opens a dialog of the system in which a file is chosen. `wake` is called once it is closed.
+    pub(super) fn browse(&mut self, purpose: Purpose, window: &Window, wake: impl Fn() + Send + 'static) {
+        let suggested = match purpose {
+            Purpose::Open => absolute(&self.settings.estimator.scene.source),
+            Purpose::Save(kind) => self.save_as(kind).suggestion(),
+        };
+        self.dialog = Some(Dialog::open(purpose, &suggested, window, wake));
+    }
+
+    /// Opens the file that was chosen in a dialog. Returns what is to be saved, if a file was chosen for that.
+    pub(super) fn watch_dialog(&mut self) -> Option<Kind> {
+        let (purpose, answer) = self.dialog.as_ref()?.poll()?;
+        self.dialog = None;
+        match (purpose, answer) {
+            (_, Ok(None)) => {}
+            (Purpose::Open, Ok(Some(file))) => self.open(&file),
+            (Purpose::Save(kind), Ok(Some(file))) => {
+                self.save_as(kind).choose(file);
+                return Some(kind);
+            }
+            (_, Err(why)) => {
+                self.messages.fail(format!(
+                    "No dialog can be opened here. Type the path under Files, or drop the file on the window. ({why})"
+                ));
+            }
+        }
+        None
     }
 
     /// Saves the scene, and reports the file or the error.

@@ -39,6 +39,22 @@ impl SaveAs {
         if self.replaces || !file.exists() { Ok(file) } else { Err(file) }
     }
 
+    /// The path to suggest in a dialog.
+    pub(super) fn suggestion(&self) -> PathBuf {
+        typed(Path::new(self.file.trim()))
+    }
+
+    /// Takes the file that was chosen in a dialog, which has asked whether to replace it. A name without an ending gets
+    /// that of the name before, and nobody was asked about that file.
+    pub(super) fn choose(&mut self, file: PathBuf) {
+        let ending = Path::new(&self.file).extension().map(ToOwned::to_owned);
+        let (file, replaces) = match (file.extension(), ending) {
+            (None, Some(ending)) => (file.with_extension(ending), false),
+            _ => (file, true),
+        };
+        *self = Self { file: file.display().to_string(), offered: false, replaces };
+    }
+
     /// Suggests a new name, after the file was saved.
     pub(super) fn suggest_next(&mut self) {
         *self = Self::new(&self.file);

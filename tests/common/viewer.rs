@@ -66,6 +66,8 @@ pub struct Viewer {
     pub diagram: RefCell<Option<([f32; 2], [f64; 3])>>,
     /// What was shown last: points, and the picture's size.
     pub last_shown: RefCell<String>,
+    /// The file or scene that was opened last.
+    pub opened: RefCell<String>,
     /// What the panel said last.
     pub message: RefCell<String>,
     /// What is allocated on the device: names and bytes.
@@ -158,6 +160,7 @@ impl Viewer {
             view: RefCell::default(),
             diagram: RefCell::default(),
             last_shown: RefCell::default(),
+            opened: RefCell::default(),
             message: RefCell::default(),
             memory: RefCell::default(),
             copied: RefCell::default(),

@@ -2,6 +2,8 @@
 
 use super::Action;
 use super::widgets::{LONGEST, Layout, button, combo, from_end, named, note_item, pressed};
+use crate::app::dialog::Purpose;
+use crate::app::message::Kind;
 use crate::app::panel::Panel;
 use crate::app::save_as::SaveAs;
 use crate::renderer::Progress;
@@ -27,10 +29,24 @@ impl Panel {
             }
         });
         let files = &mut self.files;
+        let is_open = self.dialog.is_some();
+        let mut browse = |name, purpose, help, layout: &mut Layout| {
+            ui.disabled(is_open, || {
+                if button(ui, name, help, layout) {
+                    action = Some(Action::Browse(purpose));
+                }
+            });
+        };
+        browse(
+            "Open file ...",
+            Purpose::Open,
+            "Chooses a scene (.toml), a mesh (.obj), or a picture that thinlens saved (.png, .exr) in a dialog (Ctrl+O).",
+            layout,
+        );
         named(
             ui,
             "Open",
-            "A scene (.toml), a mesh (.obj), or a picture that thinlens saved (.png, .exr): type its path and press Enter, or drop it on the window.",
+            "The same by its path: type it and press Enter. Or drop the file on the window.",
             layout,
             |id| {
                 if ui.input_text(id, &mut files.open).enter_returns_true(true).build() {
@@ -47,6 +63,8 @@ impl Panel {
                 edit(ui, id, &mut files.picture);
             },
         );
+        let help = "Chooses the file in a dialog, and writes the picture as it is now.";
+        browse("Save picture as ...", Purpose::Save(Kind::Picture), help, layout);
         let mut ask = |name, asks, help| {
             if button(ui, name, help, layout) {
                 action = Some(asks);
@@ -81,6 +99,13 @@ impl Panel {
         if button(ui, "Save scene", help, layout) {
             action = Some(Action::SaveScene);
         }
+        ui.same_line();
+        let help = "Chooses the file in a dialog, and writes the scene as it is now.";
+        ui.disabled(is_open, || {
+            if button(ui, "Save scene as ...", help, layout) {
+                action = Some(Action::Browse(Purpose::Save(Kind::Scene)));
+            }
+        });
         if let Some(file) = wanted {
             self.open(&file);
         }

@@ -20,6 +20,7 @@ mod tolerance;
 mod widgets;
 
 use super::area::Area;
+use super::dialog::Purpose;
 use super::guide::Guide;
 use super::message::Offer;
 use super::panel::{Panel, builtin};
@@ -84,6 +85,8 @@ pub(super) enum Action {
     Lesson,
     /// Hide everything but the picture, or show it.
     Hide,
+    /// Let the user choose a file in a dialog of the system.
+    Browse(Purpose),
     /// Write the picture to the file that is named.
     SavePicture,
     /// Write the picture once it has all of its points, or not.

@@ -152,9 +152,10 @@ impl OpenWindow {
                 .messages
                 .say("The held picture is gone: it does not fit the picture's new size.".into());
         }
+        let chosen = self.panel.watch_dialog().map(saving);
         let is_done = self.panel.save_when_done && self.graphics.has_started() && self.graphics.finished();
         self.panel.save_when_done &= !is_done;
-        for action in action.into_iter().chain(is_done.then_some(Action::SavePicture)) {
+        for action in action.into_iter().chain(is_done.then_some(Action::SavePicture)).chain(chosen) {
             self.act(action)?;
         }
         if let Some(name) = self.panel.to_open.take() {
@@ -312,6 +313,16 @@ impl OpenWindow {
             }
             // `interact` has done it already, because imgui owns the clipboard.
             Action::CopyCommand => {}
+            Action::Browse(purpose) => {
+                // One at a time.
+                if self.panel.dialog.is_none() {
+                    let waker = self.waker.clone();
+                    // Sending fails only when the window has closed.
+                    self.panel.browse(purpose, &self.window, move || {
+                        let _ = waker.send_event(());
+                    });
+                }
+            }
             Action::SaveScene => self.panel.save_scene(),
             Action::SaveWhenDone => self.panel.save_when_done ^= true,
             Action::Render => {
@@ -354,10 +365,7 @@ impl OpenWindow {
                 kind
             }
         };
-        self.act(match kind {
-            Kind::Picture => Action::SavePicture,
-            Kind::Scene => Action::SaveScene,
-        })
+        self.act(saving(kind))
     }
 
     /// Moves the camera at once. The focal plane follows what was focused on.
@@ -376,5 +384,13 @@ impl OpenWindow {
         self.graphics.hold()?;
         self.panel.hold();
         Ok(())
+    }
+}
+
+/// The action that saves this.
+fn saving(kind: Kind) -> Action {
+    match kind {
+        Kind::Picture => Action::SavePicture,
+        Kind::Scene => Action::SaveScene,
     }
 }

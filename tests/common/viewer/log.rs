@@ -53,6 +53,9 @@ impl Viewer {
                 numbers(p.trim_end_matches(']').replace(',', "").as_str()).try_into().expect("three numbers");
             *self.diagram.borrow_mut() = Some((pixel, p));
         }
+        if let Some(opened) = said(&line, telemetry::LOADED) {
+            opened.clone_into(&mut self.opened.borrow_mut());
+        }
         if let Some(message) = said(&line, telemetry::MESSAGE) {
             message.clone_into(&mut self.message.borrow_mut());
         }
