@@ -45,7 +45,7 @@ fn without_dialogs_the_viewer_says_so_and_takes_typed_paths() {
         |viewer| message(viewer, "No dialog can be opened here"),
         || viewer.press("ctrl+o"),
     );
-    assert!(viewer.message.borrow().contains("Type the path under Files"));
+    assert!(viewer.message.borrow().contains("Type the path under Files, or drop"));
     viewer.click("Files", |viewer| viewer.controls.borrow().contains_key("Open"));
     for button in ["Open file ...", "Save picture as ...", "Save scene as ..."] {
         viewer.message.borrow_mut().clear();

@@ -462,9 +462,10 @@ impl Panel {
                 return Some(kind);
             }
             (_, Err(why)) => {
-                self.messages.fail(format!(
-                    "No dialog can be opened here. Type the path under Files, or drop the file on the window. ({why})"
-                ));
+                log::info!("no dialog: {why}");
+                self.messages.fail(
+                    "No dialog can be opened here: neither the desktop's portal nor the program zenity answers. Type the path under Files, or drop the file on the window.".into(),
+                );
             }
         }
         None
