@@ -124,7 +124,7 @@ fn accepted(settings: &Settings, save: bool) -> String {
         shapes.map(|count| many(count + 1)),
         [scene.lights.len(), scene.materials.len(), depth as usize].map(|count| many(count + 1)),
         estimator.model,
-        scene.moves(),
+        estimator.scene.moves(),
         settings.view.overlay,
         [
             estimator.aperture.blades > 0,

@@ -156,7 +156,8 @@ fn an_exr_holds_linear_values_and_counts() {
             let linear = linear.clamp(0.0, 1.0);
             let srgb =
                 if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
-            assert!((255.0 * srgb - f32::from(*encoded)).abs() < 0.52, "{linear} as {encoded}");
+            // A device may round to the farther neighbour where both are almost equally near.
+            assert!((255.0 * srgb - f32::from(*encoded)).abs() < 0.6, "{linear} as {encoded}");
         }
     }
 }

@@ -107,11 +107,6 @@ pub struct Scene {
 const DEFAULT_SHUTTER: f32 = 1.0 / 60.0;
 
 impl Scene {
-    /// Whether anything in the scene moves.
-    pub fn moves(&self) -> bool {
-        self.shapes.iter().any(|of| of.velocity != Vec3::ZERO)
-    }
-
     /// The shapes of one kind, each with its material and its velocity.
     pub fn of_kind<'a, T: 'a>(&'a self) -> impl Iterator<Item = (&'a T, &'a Shaded)>
     where
@@ -136,18 +131,20 @@ pub struct SceneRef(Arc<Shared>);
 struct Shared {
     scene: Scene,
     middle: DVec3,
+    moves: bool,
 }
 
 impl SceneRef {
     /// Shares a scene.
     pub fn new(scene: Scene) -> Self {
         let middle = middle::of(&scene);
-        Self(Arc::new(Shared { scene, middle }))
+        let moves = scene.shapes.iter().any(|of| of.velocity != Vec3::ZERO);
+        Self(Arc::new(Shared { scene, middle, moves }))
     }
 
     /// Shares this scene, whose shapes are those of another one.
     fn with_shapes_of(scene: Scene, other: &Self) -> Self {
-        Self(Arc::new(Shared { scene, middle: other.middle() }))
+        Self(Arc::new(Shared { scene, middle: other.middle(), moves: other.moves() }))
     }
 
     /// The scene with its model shown like this. `None` for a scene without a model.
@@ -169,6 +166,11 @@ impl SceneRef {
     /// few digits for points that are far from the origin.
     pub fn middle(&self) -> DVec3 {
         self.0.middle
+    }
+
+    /// Whether anything in the scene moves.
+    pub fn moves(&self) -> bool {
+        self.0.moves
     }
 
     /// A point in the coordinates of a device.
