@@ -59,8 +59,8 @@ point "${box[@]}"
 save viewer.png
 
 press o
-# The drawing stands below the picture, which is smaller now.
-click_at 965 150
+# The drawing stands below the picture, which is smaller now. The checked box is blurred, in front of the focal plane.
+click_at 612 300
 save optics.png
 press o
 

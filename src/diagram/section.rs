@@ -164,21 +164,26 @@ impl Scale {
         [self.x(depth), self.lens[1] + if self.above { up } else { -up } as f32]
     }
 
-    /// What is drawn larger or smaller than depths in front of the lens, and how much.
-    fn words(&self) -> String {
-        let times = |name: &str, scale: f64| format!("{name} {} times", digits(scale / self.in_front, 2));
+    /// What is drawn larger or smaller than depths in front of the lens, and how much: in full, then shorter and shorter.
+    fn words(&self) -> Vec<String> {
         let is_same = |scale: f64| (scale / self.in_front - 1.0).abs() < 1e-9;
         if [self.behind, self.fan, self.rise].into_iter().all(is_same) {
-            return "to scale".into();
+            return vec!["to scale".into()];
         }
-        let parts = [
-            ("depths behind the lens", self.behind, true),
-            ("heights from the centre ray", self.fan, true),
-            ("its slope", self.rise, self.slope.abs() > 1e-3 && !is_same(self.rise)),
-        ];
-        let parts: Vec<String> =
-            parts.into_iter().filter(|part| part.2).map(|(name, scale, _)| times(name, scale)).collect();
-        format!("magnified: {}", parts.join(", "))
+        let slope = self.slope.abs() > 1e-3 && !is_same(self.rise);
+        let magnified = |[behind, fan, rise]: [&str; 3]| {
+            let times = |name: &str, scale: f64| format!("{name} {} times", digits(scale / self.in_front, 2));
+            let mut words = format!("magnified: {}, {}", times(behind, self.behind), times(fan, self.fan));
+            if slope {
+                words += &format!(", {}", times(rise, self.rise));
+            }
+            words
+        };
+        vec![
+            magnified(["depths behind the lens", "heights from the centre ray", "its slope"]),
+            magnified(["behind the lens", "heights", "slope"]),
+            "magnified".into(),
+        ]
     }
 }
 
@@ -241,7 +246,7 @@ pub(super) fn draw(
         names_below.push(Name::new(middle, Role::SharpName, [name, "sharp".into()]));
     }
     below.row(bottom + 0.5 * LINE, names_below);
-    below.row(bottom + 1.5 * LINE, vec![Name::new(0.0, Role::Faint, [scale.words(), "magnified".into()])]);
+    below.row(bottom + 1.5 * LINE, vec![Name::new(0.0, Role::Faint, scale.words())]);
 
     pane.line([0.0, scale.lens[1]], [right, scale.lens[1]], Role::Frame, 1.0);
     pane.line([film, top], [film, bottom], Role::Film, 2.0);
