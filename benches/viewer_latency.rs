@@ -11,6 +11,7 @@
 mod common;
 
 use common::viewer::Viewer;
+use std::path::Path;
 use std::time::{Duration, Instant};
 use x11rb::connection::Connection;
 use x11rb::protocol::xproto::{BUTTON_PRESS_EVENT, BUTTON_RELEASE_EVENT, MOTION_NOTIFY_EVENT};
@@ -105,22 +106,42 @@ fn waits(sweep: &[Seen], shown: &[Seen]) -> Vec<f64> {
         .collect()
 }
 
-/// Unfolds all of the panel, from below, for what unfolds moves what is under it; and opens the optics.
-fn open_all(viewer: &Viewer) {
-    for section in ["Device", "Files", "View", "Sampling", "Light", "Viewpoint", "Aperture shape", "Lens"] {
-        viewer.click_once(section);
-    }
-    viewer.click("Optics", |viewer| viewer.diagram.borrow().is_some());
+/// The sections of the panel that are folded at first.
+const SECTIONS: [&str; 10] = [
+    "Lens",
+    "Aperture shape",
+    "Viewpoint",
+    "Shift, tilt, colour errors",
+    "Light",
+    "Sampling",
+    "View",
+    "Output",
+    "Files",
+    "Device",
+];
+
+/// Makes the viewer that is started in this folder open with all of the panel unfolded.
+fn unfold_all(folder: &Path) {
+    let folds: Vec<String> = SECTIONS.iter().map(|section| format!("\"{section}\": true")).collect();
+    let memory = format!("{{\"greeted\": true, \"folds\": {{{}}}}}", folds.join(", "));
+    std::fs::create_dir_all(folder.join("thinlens")).expect("a folder");
+    std::fs::write(folder.join("thinlens/viewer.json"), memory).expect("a memory");
 }
 
 fn main() {
     let scene = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
     let scene = scene.unwrap_or_else(|| "version-4".into());
     let all_open = std::env::args().any(|argument| argument == "--all-open");
-    let viewer = Viewer::start_as_user(SIZE, &[&scene, "-n", "256"]);
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    if all_open {
+        unfold_all(folder.path());
+    }
+    let size = format!("{}x{}", SIZE[0], SIZE[1]);
+    let viewer = Viewer::start_in(folder.path(), SIZE, &["--size", &size, &scene, "-n", "256"]);
     viewer.wait_for("first picture", |viewer| viewer.shown.borrow().0 > 1);
     if all_open {
-        open_all(&viewer);
+        assert!(viewer.controls.borrow().contains_key("Aperture"), "the section Lens is open");
+        viewer.click("Optics", |viewer| viewer.diagram.borrow().is_some());
     }
     let control = viewer.controls.borrow()[CONTROL];
     let display = viewer.display.clone();
