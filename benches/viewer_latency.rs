@@ -123,9 +123,7 @@ const SECTIONS: [&str; 10] = [
 /// Makes the viewer that is started in this folder open with all of the panel unfolded.
 fn unfold_all(folder: &Path) {
     let folds: Vec<String> = SECTIONS.iter().map(|section| format!("\"{section}\": true")).collect();
-    let memory = format!("{{\"greeted\": true, \"folds\": {{{}}}}}", folds.join(", "));
-    std::fs::create_dir_all(folder.join("thinlens")).expect("a folder");
-    std::fs::write(folder.join("thinlens/viewer.json"), memory).expect("a memory");
+    Viewer::remember(folder, &format!("{{\"greeted\": true, \"folds\": {{{}}}}}", folds.join(", ")));
 }
 
 fn main() {

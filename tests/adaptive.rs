@@ -160,7 +160,7 @@ fn what_does_not_stop_is_what_it_was() {
         settings.estimator.noise_threshold = 0.0;
         let mut renderer = gpu.renderer(&settings);
         // The same batches as in an adaptive picture, between which pixels may stop.
-        renderer.set_max_batch(16);
+        renderer.set_usual_batch(16);
         let uniform = render(&mut renderer, &settings).expect("a film");
         let same = bits(&got).iter().zip(bits(&uniform)).filter(|(got, uniform)| **got == *uniform).count();
         let stopped = got.iter().zip(&uniform).filter(|(got, uniform)| got[3] < uniform[3]).count();

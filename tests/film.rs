@@ -78,15 +78,15 @@ fn another_cut_of_batches_gives_the_same_mean() {
     let mut settings = small("version-4");
     settings.samples = 50;
     let expected = film(&gpu, &settings);
-    for max_batch in [1, 2, 8, 64] {
+    for usual_batch in [1, 2, 8, 64] {
         let mut renderer = Renderer::new(gpu.device(), &settings).expect("valid settings");
-        renderer.set_max_batch(max_batch);
+        renderer.set_usual_batch(usual_batch);
         renderer.render(|_| ()).expect("a rendering");
         for (got, expected) in renderer.read_film().expect("a film").iter().zip(&expected) {
             assert_eq!(got[3], 50.0);
             for channel in 0..3 {
                 let error = (got[channel] - expected[channel]).abs() / expected[channel].abs().max(1e-3);
-                assert!(error <= 1e-5, "batches of {max_batch}: {got:?}, not {expected:?}");
+                assert!(error <= 1e-5, "batches of {usual_batch}: {got:?}, not {expected:?}");
             }
         }
     }

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::viewer::{PANEL, Viewer, x11::difference};
+use common::viewer::{MEMORY, PANEL, Viewer, x11::difference};
 use common::{decode_png, render_png, run};
 use std::process::Command;
 use std::time::Duration;
@@ -305,9 +305,8 @@ fn the_next_time_everything_is_as_it_was() {
     second.close();
 
     // What has gone meanwhile is said, and is no reason to stay away.
-    let memory = std::fs::read_to_string(folder.path().join("thinlens/viewer.json")).expect("a memory");
-    std::fs::write(folder.path().join("thinlens/viewer.json"), memory.replace("suffern-boxes", "gone.toml"))
-        .expect("a memory");
+    let memory = std::fs::read_to_string(folder.path().join(MEMORY)).expect("a memory");
+    Viewer::remember(folder.path(), &memory.replace("suffern-boxes", "gone.toml"));
     let third = Viewer::start_in(folder.path(), [760, 700], &["--validation"]);
     let version_4 = scene::load("version-4").expect("a built-in scene");
     third.wait_for("the default scene", |viewer| viewer.state.borrow()[0] == version_4.lens.diameter);

@@ -10,8 +10,7 @@ const ARGUMENTS: [&str; 5] = ["--size", "900x1000", "--validation", "-n", "4"];
 /// The viewer of a user who has never started it, and the folder of its memory.
 fn first_start() -> (tempfile::TempDir, Viewer) {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    std::fs::create_dir(folder.path().join("thinlens")).expect("a folder");
-    std::fs::write(folder.path().join("thinlens/viewer.json"), "{}").expect("a memory");
+    Viewer::remember(folder.path(), "{}");
     let viewer = Viewer::start_in(folder.path(), SIZE, &ARGUMENTS);
     viewer.wait_until_done();
     (folder, viewer)

@@ -1,6 +1,7 @@
 //! The objects of a scene where a plane through the camera cuts them.
 
 use crate::scene::{Material, Scene, Shape};
+use crate::settings::to_srgb;
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
@@ -165,8 +166,5 @@ fn color(material: &Material) -> [f32; 3] {
     let seen = material.brightest(DVec3::ONE, DVec3::ONE) + material.reflectance().as_dvec3();
     let most = seen.max_element();
     let linear = if most > 0.0 { seen * (BRIGHTEST / most) } else { DVec3::splat(0.2) };
-    let encoded = |level: f64| {
-        if level <= 0.003_130_8 { 12.92 * level } else { 1.055 * level.powf(1.0 / 2.4) - 0.055 }
-    };
-    linear.to_array().map(|level| encoded(level) as f32)
+    linear.to_array().map(|level| to_srgb(level) as f32)
 }

@@ -3,6 +3,7 @@
 use super::Diagram;
 use super::paths::Side;
 use crate::scene::Overlay;
+use crate::settings::to_srgb;
 use ab_glyph::{Font, FontRef, PxScale, ScaleFont};
 use std::sync::LazyLock;
 
@@ -98,7 +99,7 @@ impl Role {
                     Side::InFocus => 1,
                     Side::Behind => 2,
                 };
-                let [red, green, blue] = colors[number].map(|level| level.powf(1.0 / 2.2));
+                let [red, green, blue] = colors[number].map(|level| to_srgb(level.into()) as f32);
                 [red, green, blue, 0.85]
             }
             Self::Centre => [1.0, 1.0, 1.0, 0.80],

@@ -14,7 +14,7 @@ pub use aperture::{Aperture, ApertureBuffer, aperture_constant, aperture_sums};
 pub use brightest::Brightest;
 pub use light::{Environment, Light};
 pub use material::{Material, Texture};
-pub use scene::{SceneBlock, SceneColors, SceneCounts, SceneData, differ_in_numbers};
+pub use scene::{SceneBlock, SceneColors, SceneCounts, SceneData};
 pub use shape::ShapeRecord;
 
 use crate::interface::{GROUP_SIZE, constant, sampler};

@@ -192,20 +192,6 @@ impl SceneColors {
             environment: Environment::new(scene, reach),
         }
     }
-
-    /// The values that passes are compiled for.
-    fn constants(&self) -> [u32; 6] {
-        let counts =
-            [self.materials.len(), self.lights.len()].map(|len| u32::try_from(len).unwrap_or(u32::MAX));
-        let [materials, lights] = counts;
-        [self.material_kinds, self.texture_kinds, self.light_kinds, materials, lights, self.shadow_lights]
-    }
-}
-
-/// Whether these scenes, which share their shapes, differ only in numbers and not in what passes are compiled for.
-pub fn differ_in_numbers(one: &SceneRef, other: &SceneRef) -> bool {
-    let constants = |of: &SceneRef| SceneColors::new(of, 0.0).constants();
-    one.shares_shapes(other) && constants(one) == constants(other)
 }
 
 /// The corner normals of each shape, or nothing if no shape has any. Zeros stand for the triangle's own normal.

@@ -42,6 +42,8 @@ struct ShapeBuffers {
     moves: bool,
     shifted: bool,
     tree_depth: u32,
+    /// Whether the device copies a small scene to variables.
+    can_be_kept: bool,
     /// The distance from the origin within which all bounded shapes stay.
     reach: f32,
 }
@@ -75,6 +77,7 @@ impl SceneBuffers {
             moves: scene.moves,
             shifted: scene.shifted,
             tree_depth: scene.tree_depth,
+            can_be_kept: device.traits().keeps_scene,
             reach: scene.colors.environment.bounding_radius,
         };
         Self::assemble(device, Arc::new(shapes), &scene.colors)
@@ -93,15 +96,13 @@ impl SceneBuffers {
         self.shapes.reach
     }
 
+    /// Whether a scene with the same shapes and these colors needs no other pipelines.
+    pub fn shares_pipelines_with(&self, colors: &SceneColors) -> bool {
+        self.shapes.constants(colors) == self.constants
+    }
+
     fn assemble(device: &Arc<Device>, shapes: Arc<ShapeBuffers>, colors: &SceneColors) -> Result<Self> {
-        let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
-        let place = match colors.make_small(&shapes.list) {
-            true if device.traits().keeps_scene => scene_in::VARIABLES,
-            true => scene_in::UNIFORMS,
-            false => scene_in::BUFFERS,
-        };
-        let (lights, shadow_lights) = (count(colors.lights.len()), colors.shadow_lights);
-        let counts = SceneCounts { lights, shadow_lights, ..shapes.counts };
+        let counts = shapes.counts(colors);
         let block = UniformBuffer::upload(device, "scene", &SceneBlock::new(colors, counts, &shapes.list))?;
         let bindings = vec![
             (binding::MATERIALS, buffer(device, "materials", &colors.materials)?),
@@ -111,31 +112,8 @@ impl SceneBuffers {
             (binding::CORNER_NORMALS, shapes.normals.clone()),
             (binding::VELOCITIES, shapes.velocities.clone()),
         ];
-        // Numbers that shaders read from the buffer stay out of the constants, so that the same pipelines serve many
-        // scenes.
-        let known_if = |known: bool, number: u32| if known { number } else { 0 };
-        let kept = place == scene_in::VARIABLES;
-        let small = place != scene_in::BUFFERS;
-        let tree_depth =
-            if kept { shapes.tree_depth } else { shapes.tree_depth.next_multiple_of(STACK_STEP) };
-        let mut constants = vec![
-            (constant::LIGHT_COUNT, known_if(small, counts.lights)),
-            (constant::SHADOW_LIGHT_COUNT, known_if(small, counts.shadow_lights)),
-            (constant::MATERIAL_COUNT, known_if(kept, count(colors.materials.len())).max(1)),
-            (constant::SCENE_PLACE, place),
-            (constant::SCENE_MOVES, shapes.moves.into()),
-            (constant::SCENE_IS_SHIFTED, shapes.shifted.into()),
-            (constant::TREE_DEPTH, tree_depth),
-            (constant::LIST_BEGIN, known_if(kept, counts.list_begin)),
-            (constant::SHAPE_KINDS, shapes.kinds),
-            (constant::MATERIAL_KINDS, colors.material_kinds),
-            (constant::TEXTURE_KINDS, colors.texture_kinds),
-            (constant::LIGHT_KINDS, colors.light_kinds),
-            (constant::HAS_CORNER_NORMALS, shapes.has_normals.into()),
-            (constant::MAX_TREE_STEPS, known_if(kept, counts.max_tree_steps)),
-        ];
-        let ends = &counts.list_ends[..shape::NAMES.len()];
-        constants.extend((constant::SHAPE_END..).zip(ends.iter().map(|end| known_if(small, *end))));
+        let constants = shapes.constants(colors);
+        let tree_depth = shapes.stack_size(shapes.place(colors));
         Ok(Self { shapes, bindings, constants, counts, tree_depth, reflects: colors.reflects })
     }
 
@@ -194,6 +172,64 @@ impl SceneBuffers {
     pub fn constants(&self) -> &[(u32, u32)] {
         &self.constants
     }
+}
+
+impl ShapeBuffers {
+    /// Where the lights and the listed shapes are read from: one of [`scene_in`].
+    fn place(&self, colors: &SceneColors) -> u32 {
+        match colors.make_small(&self.list) {
+            true if self.can_be_kept => scene_in::VARIABLES,
+            true => scene_in::UNIFORMS,
+            false => scene_in::BUFFERS,
+        }
+    }
+
+    fn counts(&self, colors: &SceneColors) -> SceneCounts {
+        let (lights, shadow_lights) = (count(colors.lights.len()), colors.shadow_lights);
+        SceneCounts { lights, shadow_lights, ..self.counts }
+    }
+
+    /// How many entries the stack of the tree has; 0 where there is no tree.
+    fn stack_size(&self, place: u32) -> u32 {
+        if place == scene_in::VARIABLES {
+            self.tree_depth
+        } else {
+            self.tree_depth.next_multiple_of(STACK_STEP)
+        }
+    }
+
+    /// The specialization constants of a scene with these shapes and colors.
+    fn constants(&self, colors: &SceneColors) -> Vec<(u32, u32)> {
+        let (place, counts) = (self.place(colors), self.counts(colors));
+        let kept = place == scene_in::VARIABLES;
+        let small = place != scene_in::BUFFERS;
+        // Numbers that shaders read from the buffer stay out of the constants, so that the same pipelines serve many
+        // scenes.
+        let known_if = |known: bool, number: u32| if known { number } else { 0 };
+        let mut constants = vec![
+            (constant::LIGHT_COUNT, known_if(small, counts.lights)),
+            (constant::SHADOW_LIGHT_COUNT, known_if(small, counts.shadow_lights)),
+            (constant::MATERIAL_COUNT, known_if(kept, count(colors.materials.len())).max(1)),
+            (constant::SCENE_PLACE, place),
+            (constant::SCENE_MOVES, self.moves.into()),
+            (constant::SCENE_IS_SHIFTED, self.shifted.into()),
+            (constant::TREE_DEPTH, self.stack_size(place)),
+            (constant::LIST_BEGIN, known_if(kept, counts.list_begin)),
+            (constant::SHAPE_KINDS, self.kinds),
+            (constant::MATERIAL_KINDS, colors.material_kinds),
+            (constant::TEXTURE_KINDS, colors.texture_kinds),
+            (constant::LIGHT_KINDS, colors.light_kinds),
+            (constant::HAS_CORNER_NORMALS, self.has_normals.into()),
+            (constant::MAX_TREE_STEPS, known_if(kept, counts.max_tree_steps)),
+        ];
+        let ends = &counts.list_ends[..shape::NAMES.len()];
+        constants.extend((constant::SHAPE_END..).zip(ends.iter().map(|end| known_if(small, *end))));
+        constants
+    }
+}
+
+fn count(len: usize) -> u32 {
+    u32::try_from(len).unwrap_or(u32::MAX)
 }
 
 fn buffer<T: Pod>(device: &Arc<Device>, name: &'static str, elements: &[T]) -> Result<Binding> {

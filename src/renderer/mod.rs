@@ -30,7 +30,7 @@ use crate::settings::Settings;
 use crate::vulkan::{Device, Image};
 use excerpt::Excerpts;
 use loaded::Loaded;
-use schedule::{Cursor, MAX_BATCH, Stage};
+use schedule::{Cursor, Stage, USUAL_BATCH};
 use std::sync::Arc;
 use std::time::Duration;
 use tally::Tally;
@@ -54,7 +54,7 @@ pub struct Renderer {
     tally: Tally,
     excerpts: Excerpts,
     blue_first: bool,
-    max_batch: u32,
+    usual_batch: u32,
     /// The largest batch that the loops of the scene allow on this device.
     largest_batch: u32,
 }
@@ -107,13 +107,14 @@ impl Renderer {
             tally,
             excerpts: Excerpts::default(),
             blue_first: false,
-            max_batch: MAX_BATCH,
+            usual_batch: USUAL_BATCH,
         })
     }
 
-    /// Sets the largest number of samples in a batch, a power of two, from the next batch on.
-    pub fn set_max_batch(&mut self, max_batch: u32) {
-        self.max_batch = max_batch;
+    /// Sets the usual number of samples in a batch, a power of two, from the next batch on. Batches are larger once a
+    /// pixel has very many samples.
+    pub fn set_usual_batch(&mut self, usual_batch: u32) {
+        self.usual_batch = usual_batch;
     }
 
     /// Sets the order of the bytes of [`Self::picture`]: b, g, r, a if true, or else r, g, b, a.

@@ -3,9 +3,7 @@
 
 use super::schedule::{self, LARGEST_BATCH};
 use crate::error::{Error, Result};
-use crate::gpu_types::{
-    Counters, SceneColors, SceneData, aperture_sums, differ_in_numbers, film_constants, lens_constants,
-};
+use crate::gpu_types::{Counters, SceneColors, SceneData, aperture_sums, film_constants, lens_constants};
 use crate::passes::{
     Accumulate, ApertureBuffers, BlueNoiseTile, Geometry, Pick, Resolve, ResolveKind, SceneBuffers, Select,
     Shaders, Trace,
@@ -206,9 +204,10 @@ impl Prepared {
         let keys = Keys::new(settings, answers);
         let scene = self.keys.scene.clone();
         let stands = keys.scene.scene.stage().is_none_or(|stage| *stage == keys.scene.stage);
+        let colors = || SceneColors::new(&keys.scene.scene, self.scene.reach());
         stands
-            && differ_in_numbers(&scene.scene, &keys.scene.scene)
-            && self.keys.scene.has_shapes_of(&keys.scene)
+            && scene.has_shapes_of(&keys.scene)
+            && self.scene.shares_pipelines_with(&colors())
             && self.keys == Keys { scene, ..keys }
     }
 

@@ -7,7 +7,7 @@ use crate::gpu_types::Lattice;
 use crate::interface::{GROUP_SIZE, LISTED_ROW_GROUPS, PREVIEW_SITE, PREVIEW_STRIDE};
 
 /// Samples per pixel in a batch, after the first batches of a picture.
-pub const MAX_BATCH: u32 = 64;
+pub const USUAL_BATCH: u32 = 64;
 
 /// A batch is at least this part of the samples that a pixel has. If the film had many more samples than a batch, a
 /// batch would change its mean by less than an f32 can tell, and rounding would decide where the mean goes.
@@ -18,7 +18,7 @@ pub const LARGEST_BATCH: u32 = 4096;
 
 /// Where the first batches end. The first ones are short so that there is something to see soon. Later ones are longer,
 /// because every batch has a fixed cost.
-const FIRST_CUTS: [u32; 5] = [1, 4, 16, 32, MAX_BATCH];
+const FIRST_CUTS: [u32; 5] = [1, 4, 16, 32, USUAL_BATCH];
 
 /// In an adaptive picture, active pixels are selected each time after this many samples per pixel, but for the first
 /// time after twice as many: fewer samples could all miss a small feature.
@@ -143,12 +143,12 @@ impl Cursor {
 
 impl Batch {
     /// The batch of every pixel that starts at `first_sample`. Batches end at 1, 4, 16, 32 and 64 samples, as far as
-    /// `max_batch`, then at every multiple of `max_batch`, and at `target`. A picture of very many samples has larger
+    /// `usual_batch`, then at every multiple of `usual_batch`, and at `target`. A picture of very many samples has larger
     /// batches, up to `largest`. Both are powers of two.
-    pub fn whole(first_sample: u32, target: u32, max_batch: u32, largest: u32) -> Self {
-        let early = FIRST_CUTS.into_iter().find(|cut| *cut > first_sample && *cut <= max_batch);
+    pub fn whole(first_sample: u32, target: u32, usual_batch: u32, largest: u32) -> Self {
+        let early = FIRST_CUTS.into_iter().find(|cut| *cut > first_sample && *cut <= usual_batch);
         let least = power_of_two_within(first_sample / LEAST_PART).unwrap_or(1);
-        let step = least.clamp(max_batch, largest);
+        let step = least.clamp(usual_batch, largest);
         let cut = early.unwrap_or_else(|| (first_sample / step + 1).saturating_mul(step));
         Self { first_sample, sample_count: cut.min(target) - first_sample, stride: 1, phase: 0 }
     }
@@ -255,28 +255,28 @@ mod tests {
     /// Catches a batch that straddles a cut: then 64 samples would not equal 32 and 32 more.
     #[test]
     fn batches_are_cut_at_fixed_sample_indices() {
-        let cuts = |target, max_batch| {
+        let cuts = |target, usual_batch| {
             let (mut cuts, mut at) = (Vec::new(), 0);
             while at < target {
-                at = Batch::whole(at, target, max_batch, LARGEST_BATCH).end();
+                at = Batch::whole(at, target, usual_batch, LARGEST_BATCH).end();
                 cuts.push(at);
             }
             cuts
         };
-        assert_eq!(cuts(200, MAX_BATCH), [1, 4, 16, 32, 64, 128, 192, 200]);
+        assert_eq!(cuts(200, USUAL_BATCH), [1, 4, 16, 32, 64, 128, 192, 200]);
         assert_eq!(cuts(70, 16), [1, 4, 16, 32, 48, 64, 70]);
         assert_eq!(cuts(3, 16), [1, 3]);
         assert_eq!(cuts(9, 2), [1, 2, 4, 6, 8, 9]);
         assert_eq!(cuts(3, 1), [1, 2, 3]);
         // From a count that an earlier, lower target left behind.
         assert_eq!(Batch::whole(20, 64, 16, 64).end(), 32);
-        assert_eq!(Batch::whole(70, 200, MAX_BATCH, MAX_BATCH).end(), 128);
+        assert_eq!(Batch::whole(70, 200, USUAL_BATCH, USUAL_BATCH).end(), 128);
     }
 
     /// Catches a batch that is too small a part of the film for an f32, or one that a device cannot trace.
     #[test]
     fn batches_grow_with_the_samples_of_a_pixel() {
-        let end = |first, largest| Batch::whole(first, u32::MAX, MAX_BATCH, largest).end() - first;
+        let end = |first, largest| Batch::whole(first, u32::MAX, USUAL_BATCH, largest).end() - first;
         assert_eq!(end(65_536, LARGEST_BATCH), 64);
         assert_eq!(end(131_072, LARGEST_BATCH), 128);
         assert_eq!(end(1_048_576, LARGEST_BATCH), 1024);

@@ -108,8 +108,11 @@ impl Renderer {
         }
         // A sample that lands in a neighbouring pixel is found by its index, so there is one sample in a batch.
         let largest = if reach(estimator.jitter) > 0 { 1 } else { self.largest_batch };
-        let usual =
-            if estimator.is_adaptive() { self.max_batch.min(schedule::SELECT_EVERY) } else { self.max_batch };
+        let usual = if estimator.is_adaptive() {
+            self.usual_batch.min(schedule::SELECT_EVERY)
+        } else {
+            self.usual_batch
+        };
         Batch::whole(self.standing.samples, self.settings.samples, usual.min(largest), largest)
     }
 

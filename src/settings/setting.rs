@@ -437,7 +437,7 @@ pub fn to_linear(level: f64) -> f64 {
     (1e5 * linear).round() / 1e5
 }
 
-/// A channel of linear light in sRGB.
+/// A channel of linear light in sRGB, clipped to [0, 1]: IEC 61966-2-1.
 pub fn to_srgb(linear: f64) -> f64 {
     let level = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
     level.clamp(0.0, 1.0)

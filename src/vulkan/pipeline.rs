@@ -1,6 +1,8 @@
 //! Compute pipelines, whose layout comes from the shader itself, and what is bound to them.
 
-use super::{Buffer, Device, Image, ResourceKind, ShaderInterface, TexelBuffer, UniformBuffer, check};
+use super::{
+    Buffer, Device, Image, NEEDED, ResourceKind, ShaderInterface, TexelBuffer, UniformBuffer, check,
+};
 use crate::error::Result;
 use ash::vk;
 use std::sync::Arc;
@@ -191,15 +193,14 @@ impl BindingSet {
             let of_kind = resources.iter().filter(|(_, resource)| resource.kind() == kind).count();
             u32::try_from(of_kind).expect("few bindings")
         };
-        let sizes: Vec<_> =
-            [ResourceKind::Buffer, ResourceKind::Uniform, ResourceKind::Image, ResourceKind::Texels]
-                .into_iter()
-                .filter(|kind| count(*kind) > 0)
-                .map(|kind| vk::DescriptorPoolSize {
-                    ty: kind.descriptor_type(),
-                    descriptor_count: count(kind),
-                })
-                .collect();
+        let sizes: Vec<_> = NEEDED
+            .into_iter()
+            .filter(|(kind, _)| count(*kind) > 0)
+            .map(|(kind, _)| vk::DescriptorPoolSize {
+                ty: kind.descriptor_type(),
+                descriptor_count: count(kind),
+            })
+            .collect();
         let pool = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
         // SAFETY: the device is valid; the handle goes into its guard before the next call.
         let pool =
@@ -226,14 +227,16 @@ impl BindingSet {
             .dst_set(self.raw)
             .dst_binding(binding)
             .descriptor_type(resource.kind().descriptor_type());
+        let whole =
+            |buffer: &Buffer| [vk::DescriptorBufferInfo::default().buffer(buffer.raw).range(vk::WHOLE_SIZE)];
         let (buffer, image, view);
         let write = match resource {
             Binding::Buffer(bound) => {
-                buffer = [vk::DescriptorBufferInfo::default().buffer(bound.raw).range(vk::WHOLE_SIZE)];
+                buffer = whole(bound);
                 write.buffer_info(&buffer)
             }
             Binding::Uniform(bound) => {
-                buffer = [vk::DescriptorBufferInfo::default().buffer(bound.buffer.raw).range(vk::WHOLE_SIZE)];
+                buffer = whole(&bound.buffer);
                 write.buffer_info(&buffer)
             }
             Binding::Image(bound) => {

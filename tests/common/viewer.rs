@@ -94,6 +94,9 @@ pub struct Viewer {
     _server: Killed,
 }
 
+/// Where the viewer keeps what it remembers, in the folder that it is started in.
+pub const MEMORY: &str = "thinlens/viewer.json";
+
 impl Viewer {
     /// Starts a display and the viewer in it under validation, with a picture of this size, and waits for its panel.
     pub fn start(size: [u16; 2], arguments: &[&str]) -> Self {
@@ -110,6 +113,13 @@ impl Viewer {
         viewer
     }
 
+    /// Writes the memory of the viewer that is started in this folder.
+    pub fn remember(folder: &Path, memory: &str) {
+        let file = folder.join(MEMORY);
+        std::fs::create_dir_all(file.parent().expect("a folder")).expect("a folder");
+        std::fs::write(file, memory).expect("a memory");
+    }
+
     /// Starts a display and the viewer in it, in this folder. Its picture must come out in this size.
     pub fn start_in(folder: &Path, size: [u16; 2], arguments: &[&str]) -> Self {
         Self::start_with(folder, size, arguments, &[])
@@ -118,10 +128,8 @@ impl Viewer {
     /// Starts a display and the viewer in it, in this folder and with these variables in its environment.
     pub fn start_with(folder: &Path, size: [u16; 2], arguments: &[&str], variables: &[(&str, &str)]) -> Self {
         // The greeting lies over the picture. Tests that want it write a memory without this.
-        let memory = folder.join("thinlens/viewer.json");
-        if !memory.exists() {
-            std::fs::create_dir_all(memory.parent().expect("a folder")).expect("a folder");
-            std::fs::write(&memory, "{\"greeted\": true}").expect("a memory");
+        if !folder.join(MEMORY).exists() {
+            Self::remember(folder, "{\"greeted\": true}");
         }
         let Server { process: server, display } = Server::start();
         let mut program = Command::new(env!("CARGO_BIN_EXE_thinlens"))

@@ -30,19 +30,15 @@ impl Panel {
         });
         let files = &mut self.files;
         let is_open = self.dialog.is_some();
-        let mut browse = |name, purpose, help, layout: &mut Layout| {
+        let browse = |name, purpose, help, layout: &mut Layout| {
+            let mut asks = None;
             ui.disabled(is_open, || {
-                if button(ui, name, help, layout) {
-                    action = Some(Action::Browse(purpose));
-                }
+                asks = button(ui, name, help, layout).then_some(Action::Browse(purpose));
             });
+            asks
         };
-        browse(
-            "Open file ...",
-            Purpose::Open,
-            "Chooses a scene (.toml), a mesh (.obj), or a picture that thinlens saved (.png, .exr) in a dialog (Ctrl+O).",
-            layout,
-        );
+        let help = "Chooses a scene (.toml), a mesh (.obj), or a picture that thinlens saved (.png, .exr) in a dialog (Ctrl+O).";
+        action = browse("Open file ...", Purpose::Open, help, layout).or(action);
         named(
             ui,
             "Open",
@@ -64,7 +60,7 @@ impl Panel {
             },
         );
         let help = "Chooses the file in a dialog, and writes the picture as it is now.";
-        browse("Save picture as ...", Purpose::Save(Kind::Picture), help, layout);
+        action = browse("Save picture as ...", Purpose::Save(Kind::Picture), help, layout).or(action);
         let mut ask = |name, asks, help| {
             if button(ui, name, help, layout) {
                 action = Some(asks);
@@ -101,11 +97,7 @@ impl Panel {
         }
         ui.same_line();
         let help = "Chooses the file in a dialog, and writes the scene as it is now.";
-        ui.disabled(is_open, || {
-            if button(ui, "Save scene as ...", help, layout) {
-                action = Some(Action::Browse(Purpose::Save(Kind::Scene)));
-            }
-        });
+        action = browse("Save scene as ...", Purpose::Save(Kind::Scene), help, layout).or(action);
         if let Some(file) = wanted {
             self.open(&file);
         }

@@ -2,7 +2,7 @@
 
 use super::MARGIN;
 use crate::app::area::Area;
-use crate::settings::Settings;
+use crate::settings::{Settings, to_srgb};
 use imgui::{Condition, Ui, WindowFlags};
 
 const WIDTH: f32 = 260.0;
@@ -58,12 +58,9 @@ fn bar(ui: &Ui, colors: &[[f32; 3]]) {
         let (left, share) = (at as usize, at.fract());
         let linear = [0, 1, 2].map(|c| colors[left][c] + share * (colors[left + 1][c] - colors[left][c]));
         let [from, to] = [step, step + 1].map(|step| x + width * step as f32 / steps as f32);
-        list.add_rect([from, y], [to, y + 14.0], linear.map(encoded)).filled(true).build();
+        list.add_rect([from, y], [to, y + 14.0], linear.map(|level| to_srgb(level.into()) as f32))
+            .filled(true)
+            .build();
     }
     ui.dummy([width, BAR]);
-}
-
-/// The sRGB encoding: IEC 61966-2-1.
-fn encoded(linear: f32) -> f32 {
-    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
