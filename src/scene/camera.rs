@@ -1,8 +1,17 @@
 //! The camera, its thin lens, and its hole.
 
-use super::Sensor;
+use super::{MAX_LENGTH, MIN_LENGTH, Sensor};
 use glam::{DMat3, DVec3};
 use std::fmt::Display;
+
+/// The vertical field of view, in degrees.
+pub const VFOV_DEGREES: [f64; 2] = [0.01, 175.0];
+/// The length of a scene unit, in metres.
+pub const METRES_PER_UNIT: [f64; 2] = [1e-15, 1e15];
+/// The focal length, in millimetres.
+pub const FOCAL_LENGTHS_MM: [f64; 2] = [0.01, 1e5];
+/// How far a lens is shifted beside the film, in millimetres.
+pub const SHIFTS_MM: [f32; 2] = [-1000.0, 1000.0];
 
 /// The position, the direction and the field of view of the camera. Lengths are in scene units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,6 +53,19 @@ impl CameraModel {
     pub const NAMES: [(&'static str, Self); 3] =
         [("thin-lens", Self::ThinLens), ("pinhole", Self::Pinhole), ("hole", Self::Hole)];
 }
+
+/// The diameter of a lens or a hole, in scene units.
+pub const DIAMETERS: [f32; 2] = [0.0, MAX_LENGTH];
+/// The f-number.
+pub const F_NUMBERS: [f64; 2] = [0.01, 1e6];
+/// The focal distance, in scene units.
+pub const FOCAL_DISTANCES: [f32; 2] = [MIN_LENGTH, MAX_LENGTH];
+/// The angle by which a lens is tilted, in degrees.
+pub const TILTS: [f32; 2] = [-45.0, 45.0];
+/// The angle by which an iris or the direction of a tilt is turned, in degrees.
+pub const ROTATIONS: [f32; 2] = [-360.0, 360.0];
+/// The Abbe number of a lens.
+pub const ABBE_NUMBERS: [u32; 2] = [1, 100];
 
 /// A thin lens: Suffern, chapter 10. Lengths are in scene units.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -29,7 +29,7 @@ mod view;
 pub use aperture::*;
 pub use builtin::{BUILTINS, Builtin};
 pub use bvh::{Bvh, Node, Record};
-pub use camera::{Camera, CameraModel, Frame, Hole, Lens};
+pub use camera::*;
 pub use file::{Loaded, load, load_with_text};
 pub use in_view::{Depths, Extents};
 pub use light::*;
@@ -37,12 +37,12 @@ pub use material::*;
 pub use movements::FocalPlane;
 pub use overlay::{FullScale, OVERLAYS, Overlay, Source};
 pub use preset::{PRESETS, Preset};
-pub use range::*;
-pub use sensor::{FORMATS, Format, Sensor};
+pub use range::{in_range, in_range_or_zero};
+pub use sensor::*;
 pub use shape::*;
 pub use stage::{COLORS, LIGHT_STRENGTHS, ModelMaterial, Stage, TURNS, UpAxis};
 pub use texture::*;
-pub use view::{Tolerance, View};
+pub use view::*;
 
 use crate::error::Result;
 use glam::{DVec3, Vec3};
@@ -54,10 +54,15 @@ pub const MAX_EXTENT: u32 = 16384;
 /// The largest number of reflections that can be followed.
 pub const MAX_BOUNCES: u32 = 64;
 
+/// The time that the shutter is open, in seconds.
+pub const SHUTTERS: [f32; 2] = [1e-6, 1e4];
+
 /// The smallest length that others are divided by, in scene units. Its inverse is finite in f32.
 pub const MIN_LENGTH: f32 = 1e-6;
 /// The largest length, colour or radiance. Squares of cross products of such lengths still fit in f32.
 pub const MAX_LENGTH: f32 = 1e9;
+/// The coordinates of a position.
+pub const PLACES: [f64; 2] = [-(MAX_LENGTH as f64), MAX_LENGTH as f64];
 
 /// A scene: shapes, materials and lights, with a camera and a picture size.
 #[derive(Debug, Clone)]

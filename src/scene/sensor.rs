@@ -1,8 +1,11 @@
 //! The sizes of film and sensors.
 
-use super::{SENSOR_SIDES_MM, in_range};
+use super::in_range;
 use std::fmt::{Display, Formatter};
 use std::str::FromStr;
+
+/// The width and the height of the film, in millimetres.
+pub const SENSOR_SIDES_MM: [f64; 2] = [0.1, 1000.0];
 
 /// The size of the film or of the sensor in millimetres. A picture has its height. The width of a picture follows from
 /// its own shape, and may be another one.

@@ -1,8 +1,17 @@
 //! How a picture is shown.
 
-use super::{Overlay, TOLERANCES_MM, TOLERANCES_PIXELS, in_range};
+use super::{Overlay, in_range};
 use std::fmt::{Display, Formatter};
 use std::str::FromStr;
+
+/// The speed of the film.
+pub const ISOS: [f32; 2] = [0.1, 1e7];
+/// The exposure, in stops.
+pub const EXPOSURES: [f32; 2] = [-20.0, 20.0];
+/// The largest circle of confusion that counts as sharp, in millimetres on a film of 36 x 24 mm.
+pub const TOLERANCES_MM: [f32; 2] = [1e-4, 10.0];
+/// The same in pixels.
+pub const TOLERANCES_PIXELS: [f32; 2] = [0.1, 1000.0];
 
 /// The default speed of the film.
 const DEFAULT_ISO: f32 = 100.0;

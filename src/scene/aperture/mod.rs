@@ -85,6 +85,17 @@ macro_rules! define_aperture {
 }
 aperture_kinds!(define_aperture);
 
+/// The number of blades of an iris.
+pub const BLADES: [u32; 2] = [3, 16];
+/// The curvature of the blades' edges.
+pub const ROUNDNESSES: [f32; 2] = [0.0, 1.0];
+/// The height of an aperture divided by its width.
+pub const ANAMORPHICS: [f32; 2] = [0.1, 10.0];
+/// The displacement of the front rim of the lens, in diameters.
+pub const CATS_EYES: [f32; 2] = [0.0, 1.0];
+/// How light is spread over an aperture.
+pub const PROFILES: [f32; 2] = [-1.0, 1.0];
+
 /// The shape of an aperture of a given diameter, as the user describes it. [`Aperture::kind`] says which kind that is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Aperture {
