@@ -41,11 +41,11 @@ max_bounces = 7
 eye = [0.5, 1.5, 8.25]
 look_at = [0, 1, 0]
 up = [0.1, 1, 0]
-view_distance = 400
+view_distance = \"4 m\"
 pixel_size = 0.5
 metres_per_unit = 0.01
 model = \"thin-lens\"
-f_number = 1.8
+f_number = \"f/1.8\"
 focal_distance = 8.5
 hole_diameter = 0.25
 upright = true
@@ -53,11 +53,11 @@ blades = 6
 blade_rotation_degrees = 15
 roundness = 0.25
 anamorphic = 1.5
-shutter = 0.02
+shutter = \"1/50 s\"
 iso = 200
 
 [view]
-exposure = -0.5
+exposure = \"-1/2 EV\"
 exposure_lock = false
 overlay = \"focus-peaking\"
 tolerance = 2.5
@@ -174,7 +174,7 @@ position = [0, 1, 1000]
 velocity = [1, 0, 0]
 ";
 
-pub const SCENE_WORDS: [&str; 72] = [
+pub const SCENE_WORDS: [&str; 80] = [
     "[sphere]",
     "[[sphere]]",
     "[[box]]",
@@ -221,6 +221,14 @@ pub const SCENE_WORDS: [&str; 72] = [
     "overlay",
     "tolerance",
     "0.03 mm",
+    "\"1/250\"",
+    "\"2,8\"",
+    "\"f/2.8\"",
+    "\"85 mm\"",
+    "\"1e9 km\"",
+    "\"30°\"",
+    "\"+2 EV\"",
+    "\"ISO 400\"",
     "center",
     "radius",
     "material",

@@ -6,7 +6,7 @@ use thinlens::scene::{
     self, BUILTINS, Box, CameraModel, Checker, LightKind, Matte, Overlay, Phong, Plane, SceneRef, Sphere,
     Texture, Tolerance, Triangle, View,
 };
-use thinlens::settings::Settings;
+use thinlens::settings::{Access, Settings, Unit, list};
 
 /// A valid file; every error below is one line changed or added.
 const VALID: &str = r#"size = [64, 48]
@@ -185,6 +185,125 @@ fn an_error_names_its_line_and_what_would_be_right() {
         let message = error_at(at, &text);
         assert!(message.contains(part), "{at}: '{message}' does not say '{part}'");
     }
+}
+
+/// A text for a number of each kind, and the number in the unit that the option has. A length is in metres.
+fn text_of(unit: Unit) -> (&'static str, f64) {
+    match unit {
+        Unit::Plain => ("3/4", 0.75),
+        Unit::FNumber => ("f/2,8", 2.8),
+        Unit::Seconds => ("1/250 s", 0.004),
+        Unit::Length => ("12,5 cm", 0.125),
+        Unit::Metres => ("5 cm", 0.05),
+        Unit::Millimetres => ("8.5 cm", 85.0),
+        Unit::Degrees => ("12.5°", 12.5),
+        Unit::Stops => ("-1/3 EV", -1.0 / 3.0),
+        Unit::Iso => ("ISO 400", 400.0),
+        Unit::Pixels | Unit::Fraction => unreachable!("no key is of this kind"),
+    }
+}
+
+/// Catches a key that does not read what its option reads, a unit that is ignored, a fraction that is upside down, and a
+/// length that is divided by the length of a scene unit twice, not at all, or by that of another file.
+#[test]
+fn numbers_of_camera_and_view_may_have_units() {
+    let base = VALID.replace("[ambient]", "[view]\n[ambient]");
+    let mut keys = 0;
+    for setting in list::all() {
+        let Some(key) = setting.key.filter(|key| ["camera", "view"].contains(&key.table)) else { continue };
+        let (Access::Single(_, _, unit) | Access::Double(_, _, unit)) = &setting.access else { continue };
+        keys += 1;
+        let (text, number) = text_of(*unit);
+        let number = if *unit == Unit::Length { number / 0.05 } else { number };
+        // No two keys may say the same.
+        let other = match key.name {
+            "f_number" => "lens_diameter",
+            "focal_length" => "vfov_degrees",
+            name => name,
+        };
+        let kept: Vec<&str> = base.lines().filter(|line| !line.starts_with(other)).collect();
+        let header = format!("[{}]", key.table);
+        let metres = if key.name == "metres_per_unit" { "" } else { "metres_per_unit = 0.05\n" };
+        let with = |value: &str| {
+            let line = format!("{header}\n{} = {value}", key.name);
+            // The length of a scene unit comes after the keys that depend on it.
+            let file = kept.join("\n").replacen(&header, &line, 1);
+            let file = file.replacen("look_at = [0, 0, -1]\n", &format!("look_at = [0, 0, -1]\n{metres}"), 1);
+            Settings::of_scene(SceneRef::new(load(&file).unwrap_or_else(|error| panic!("{value}: {error}"))))
+        };
+        let (by_text, by_number) = (with(&format!("\"{text}\"")), with(&format!("{number}")));
+        let is = setting.number(&by_text).expect("a number");
+        assert!((is / number - 1.0).abs() < 1e-6, "{} = \"{text}\" is {is}, not {number}", key.name);
+        assert_eq!(setting.get(&by_text), setting.get(&by_number), "{}", key.name);
+        let mut by_option = with(&format!("{number}"));
+        setting.set(&mut by_option, &setting.parse(text).expect(text)).expect("a number");
+        let is = setting.number(&by_option).expect("a number");
+        assert!((is / number - 1.0).abs() < 1e-6, "{} {text} is {is}, not {number}", setting.flag);
+    }
+    assert!(keys > 15, "only {keys} keys were tried");
+    // The two lengths of the book have no options.
+    let book = VALID.replacen("vfov_degrees = 60", "view_distance = \"4 m\"\npixel_size = 0.5", 1);
+    let book = book.replacen("[ambient]", "metres_per_unit = 0.01\n[ambient]", 1);
+    let camera = load(&book).expect("valid").camera;
+    let tan = (0.5 * camera.vfov_radians).tan();
+    assert!((tan - 24.0 * 0.5 / 400.0).abs() < 1e-12, "{tan}");
+}
+
+/// Catches a number with a unit that is refused without its key, its line, its text, or what can be written instead.
+#[test]
+fn a_wrong_unit_is_told_what_can_be_written() {
+    let with = |line: &str| VALID.replacen("vfov_degrees = 60", &format!("vfov_degrees = 60\n{line}"), 1);
+    for (line, parts) in [
+        ("shutter = \"fast\"", &["shutter is \"fast\", but a time is written like 1/250"][..]),
+        ("shutter = \"1/0\"", &["shutter is \"1/0\"", "1/250"]),
+        ("shutter = \"85 mm\"", &["shutter is \"85 mm\"", "1/250"]),
+        ("hole_diameter = \"1 inch\"", &["hole_diameter is \"1 inch\"", "17 mm, 35 cm or 1.2 m"]),
+        ("hole_diameter = \"1,250 m\"", &["hole_diameter is", "write 1.250 or 1250"]),
+        ("hole_diameter = \"-1 m\"", &["hole_diameter is -1, but must be from 0", "the text \"-1 m\""]),
+        ("lens_shift = \"2 km\"", &["lens_shift is 2e6, but must be", "here is the text \"2 km\""]),
+        ("iso = \"nan\"", &["iso is NaN, but must be", "here is the text"]),
+        ("iso = true", &["iso must be a number, or a text in quotes", "ISO 400", "here is true"]),
+        ("shutter = 1/250", &["'1/250' is not a number", "stands in quotes: \"1/250\""]),
+        ("lens_shift = 85mm", &["'85mm' is not a number", "stands in quotes: \"85mm\""]),
+    ] {
+        let message = error_at(line, &with(line));
+        for part in parts {
+            assert!(message.contains(part), "{line}: '{message}' does not say '{part}'");
+        }
+    }
+    // A shape has plain numbers only.
+    let message = error_at("radius = 1m", &VALID.replacen("radius = 1", "radius = 1m", 1));
+    assert!(!message.contains("quotes"), "{message}");
+    let message = error_at("radius = \"", &VALID.replacen("radius = 1", "radius = \"1 m\"", 1));
+    assert!(message.contains("radius must be a number; here is the text"), "{message}");
+}
+
+/// Catches a saved scene whose lengths in metres are those of another scene unit, a text that is written for a number, and
+/// a text that is lost although nothing changed.
+#[test]
+fn a_saved_scene_has_plain_numbers_where_something_changed() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("test.toml");
+    let text = VALID.replacen(
+        "focal_distance = 5",
+        "focal_distance = \"1.2 m\"\nshutter = \"1/250\"\niso = \"ISO 200\"\nmetres_per_unit = 0.05",
+        1,
+    );
+    std::fs::write(&path, text).expect("a writable temporary folder");
+    let mut settings = Settings::of_scene(SceneRef::new(scene::load(&path).expect("valid")));
+    assert_eq!(settings.estimator.lens.focal_distance, 24.0);
+    let saved = settings.scene_file(folder.path()).expect("it can be saved");
+    for line in ["focal_distance = \"1.2 m\"", "shutter = \"1/250\"", "iso = \"ISO 200\""] {
+        assert!(saved.contains(line), "{line}: {saved}");
+    }
+    settings.view.iso = 400.0;
+    settings.estimator.camera.metres_per_unit = 0.1;
+    let saved = settings.scene_file(folder.path()).expect("it can be saved");
+    for line in ["focal_distance = 24.0\n", "iso = 400.0\n"] {
+        assert!(saved.contains(line), "{line}: {saved}");
+    }
+    std::fs::write(&path, saved).expect("a writable temporary folder");
+    assert_eq!(scene::load(&path).expect("valid").lens.focal_distance, 24.0);
 }
 
 /// Catches a file whose reading panics: every prefix of a valid one is fine or an error.

@@ -24,6 +24,7 @@ mod stage;
 mod texture;
 mod toml;
 mod two_depths;
+mod typed;
 mod view;
 
 pub use aperture::*;
@@ -42,6 +43,7 @@ pub use sensor::*;
 pub use shape::*;
 pub use stage::{COLORS, LIGHT_STRENGTHS, ModelMaterial, Stage, TURNS, UpAxis};
 pub use texture::*;
+pub use typed::{Typed, Unit, metric, rounded};
 pub use view::*;
 
 use crate::error::Result;

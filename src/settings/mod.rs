@@ -9,8 +9,8 @@ pub mod saved_names;
 mod scene_file;
 mod setting;
 mod sweep;
-mod typed;
 
+pub use crate::scene::{Unit, metric, rounded};
 pub use arguments::quoted;
 pub use focusing::{Focusing, Place};
 pub use options::Changes;
@@ -19,7 +19,6 @@ pub use setting::{
     to_srgb,
 };
 pub use sweep::Sweep;
-pub use typed::{Unit, metric, rounded};
 
 use crate::error::{Error, Result};
 use crate::scene::{

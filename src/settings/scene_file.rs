@@ -42,10 +42,14 @@ impl Settings {
             };
             let value = setting.get(&saved);
             let given = table(&mut document, key).is_some_and(|table| table.contains_key(key.name));
+            // A length that is written in metres is another one in scene units if the unit changes.
+            let in_metres = changed("metres-per-unit")
+                && matches!(value, Value::Single(_) | Value::Double(_))
+                && has_text(&mut document, key);
             // The path of a file depends on the folder of the scene file.
             let moves = matches!(value, Value::File(_));
             let follows = || key.rests_on.iter().any(|flag| changed(flag)) && !given;
-            if changed(setting.flag) || moves || expanded.contains(&setting.flag) || follows() {
+            if changed(setting.flag) || moves || in_metres || expanded.contains(&setting.flag) || follows() {
                 write(&mut document, setting, key, item(&value, &files)?);
             }
         }
@@ -96,6 +100,13 @@ fn table<'a>(document: &'a mut DocumentMut, key: &Key) -> Option<&'a mut dyn Tab
         "" => Some(document.as_table_mut()),
         name => document.get_mut(name)?.as_table_like_mut(),
     }
+}
+
+/// Whether the file has the number of a key as a text with a unit.
+fn has_text(document: &mut DocumentMut, key: &Key) -> bool {
+    let names = std::iter::once(key.name).chain(key.otherwise.iter().copied());
+    let Some(table) = table(document, key) else { return false };
+    names.filter_map(|name| table.get(name)).any(Item::is_str)
 }
 
 /// Writes a key and removes other keys for the same setting. Without a value, only removes.

@@ -1,9 +1,8 @@
 //! The description of a setting: its names, its values, and its place in [`Settings`].
 
 use super::Settings;
-use super::typed::{Typed, Unit, rounded};
 use crate::error::{Error, Result};
-use crate::scene::{ApertureImage, Sensor, Tolerance, in_range, in_range_or_zero};
+use crate::scene::{ApertureImage, Sensor, Tolerance, Typed, Unit, in_range, in_range_or_zero, rounded};
 use glam::DVec3;
 use std::path::{Path, PathBuf};
 

@@ -1,12 +1,13 @@
 //! The table `[camera]`.
 
 use super::error::{ParseError, named};
-use super::number::{Positive, Vector, ranged};
+use super::number::Vector;
+use super::quantity::{Quantities, Quantity};
 use crate::scene::{
     ABBE_NUMBERS, ANAMORPHICS, Aperture, ApertureImage, BLADES, CATS_EYES, Camera, CameraModel,
-    DEFAULT_SHUTTER, DIAMETERS, F_NUMBERS, FOCAL_DISTANCES, FOCAL_LENGTHS_MM, Hole, ISOS, Lens,
-    METRES_PER_UNIT, PRESETS, PROFILES, ROTATIONS, ROUNDNESSES, SHIFTS_MM, SHUTTERS, Sensor, TILTS,
-    VFOV_DEGREES, View, in_range, in_range_or_zero,
+    DEFAULT_SHUTTER, DIAMETERS, F_NUMBERS, FOCAL_DISTANCES, FOCAL_LENGTHS_MM, Hole, ISOS, Lens, MAX_LENGTH,
+    METRES_PER_UNIT, MIN_LENGTH, PRESETS, PROFILES, ROTATIONS, ROUNDNESSES, SHIFTS_MM, SHUTTERS, Sensor,
+    TILTS, VFOV_DEGREES, View, in_range, in_range_or_zero,
 };
 use glam::DVec3;
 use serde::Deserialize;
@@ -22,34 +23,34 @@ pub(super) struct CameraTable {
     up: Vector,
     preset: Option<Spanned<String>>,
     sensor: Option<Spanned<String>>,
-    vfov_degrees: Option<Spanned<f64>>,
-    focal_length: Option<Spanned<f64>>,
+    vfov_degrees: Option<Spanned<Quantity>>,
+    focal_length: Option<Spanned<Quantity>>,
     #[serde(default)]
     focus_breathing: bool,
-    lens_shift: Option<Spanned<f32>>,
-    lens_rise: Option<Spanned<f32>>,
-    lens_tilt_degrees: Option<Spanned<f32>>,
-    tilt_direction_degrees: Option<Spanned<f32>>,
+    lens_shift: Option<Spanned<Quantity>>,
+    lens_rise: Option<Spanned<Quantity>>,
+    lens_tilt_degrees: Option<Spanned<Quantity>>,
+    tilt_direction_degrees: Option<Spanned<Quantity>>,
     abbe_number: Option<Spanned<u32>>,
-    view_distance: Option<Positive>,
-    pixel_size: Option<Positive>,
-    metres_per_unit: Option<Spanned<f64>>,
+    view_distance: Option<Spanned<Quantity>>,
+    pixel_size: Option<Spanned<Quantity>>,
+    metres_per_unit: Option<Spanned<Quantity>>,
     model: Option<Spanned<String>>,
-    lens_diameter: Option<Spanned<f32>>,
-    f_number: Option<Spanned<f64>>,
-    focal_distance: Spanned<f32>,
-    hole_diameter: Option<Spanned<f32>>,
+    lens_diameter: Option<Spanned<Quantity>>,
+    f_number: Option<Spanned<Quantity>>,
+    focal_distance: Spanned<Quantity>,
+    hole_diameter: Option<Spanned<Quantity>>,
     #[serde(default)]
     upright: bool,
     blades: Option<Spanned<u32>>,
-    blade_rotation_degrees: Option<Spanned<f32>>,
-    roundness: Option<Spanned<f32>>,
-    anamorphic: Option<Spanned<f32>>,
-    cats_eye: Option<Spanned<f32>>,
+    blade_rotation_degrees: Option<Spanned<Quantity>>,
+    roundness: Option<Spanned<Quantity>>,
+    anamorphic: Option<Spanned<Quantity>>,
+    cats_eye: Option<Spanned<Quantity>>,
     aperture_image: Option<Spanned<String>>,
-    bokeh_profile: Option<Spanned<f32>>,
-    shutter: Option<Spanned<f32>>,
-    iso: Option<Spanned<f32>>,
+    bokeh_profile: Option<Spanned<Quantity>>,
+    shutter: Option<Spanned<Quantity>>,
+    iso: Option<Spanned<Quantity>>,
 }
 
 const NEEDS_VFOV: &str = "the camera needs either vfov_degrees, or focal_length, or view_distance and pixel_size, or a preset that has a field of view";
@@ -82,42 +83,42 @@ impl Shot {
         let preset = preset
             .map(|name| named(&PRESETS.map(|preset| (preset.name, preset)), name, "preset"))
             .transpose()?;
+        let metres = Quantities { metres_per_unit: 1.0 };
         let metres_per_unit = table.metres_per_unit.as_ref();
-        let metres_per_unit = ranged("metres_per_unit", metres_per_unit, METRES_PER_UNIT)?.unwrap_or(1.0);
+        let metres_per_unit =
+            metres.double("metres_per_unit", metres_per_unit, METRES_PER_UNIT)?.unwrap_or(1.0);
+        let numbers = Quantities { metres_per_unit };
         let (eye, look_at, up) = (table.eye.0, table.look_at.0, table.up.0);
         let sensor = table.sensor.as_ref().map(sensor).transpose()?.unwrap_or(Sensor::FULL_FRAME);
-        let vfov_radians = f64::NAN;
         let focus_breathing = table.focus_breathing;
-        let shift = ranged("lens_shift", table.lens_shift.as_ref(), SHIFTS_MM)?.unwrap_or(0.0);
-        let rise = ranged("lens_rise", table.lens_rise.as_ref(), SHIFTS_MM)?.unwrap_or(0.0);
+        let shift = numbers.single("lens_shift", table.lens_shift.as_ref(), SHIFTS_MM)?.unwrap_or(0.0);
+        let rise = numbers.single("lens_rise", table.lens_rise.as_ref(), SHIFTS_MM)?.unwrap_or(0.0);
         let lens_shift_mm = [shift, rise];
         let mut camera = Camera {
             eye,
             look_at,
             up,
-            vfov_radians,
+            vfov_radians: f64::NAN,
             metres_per_unit,
             sensor,
             focus_breathing,
             lens_shift_mm,
         };
         let mut model = CameraModel::default();
-        let focal_distance = &table.focal_distance;
-        ranged("focal_distance", Some(focal_distance), FOCAL_DISTANCES)?;
-        let mut lens = Lens::new(f32::NAN, *focal_distance.get_ref());
+        let focal_distance =
+            numbers.single("focal_distance", Some(&table.focal_distance), FOCAL_DISTANCES)?;
+        let mut lens = Lens::new(f32::NAN, focal_distance.unwrap_or(f32::NAN));
         lens.tilt_degrees =
-            ranged("lens_tilt_degrees", table.lens_tilt_degrees.as_ref(), TILTS)?.unwrap_or(0.0);
+            numbers.single("lens_tilt_degrees", table.lens_tilt_degrees.as_ref(), TILTS)?.unwrap_or(0.0);
         let direction = table.tilt_direction_degrees.as_ref();
         if let Some(number) = &table.abbe_number {
             lens.abbe_number = *number.get_ref();
             in_range_or_zero(lens.abbe_number, ABBE_NUMBERS, "a lens without colour errors")
                 .map_err(|wrong| ParseError::at(number, &format!("abbe_number {wrong}")))?;
         }
-        lens.tilt_direction_degrees = ranged("tilt_direction_degrees", direction, ROTATIONS)?.unwrap_or(0.0);
-        ranged("vfov_degrees", table.vfov_degrees.as_ref(), VFOV_DEGREES)?;
-        ranged("focal_length", table.focal_length.as_ref(), FOCAL_LENGTHS_MM)?;
-        let vfov_radians =
-            table.vfov_radians(size, &sensor).map_err(|message| ParseError::at(span, message))?;
+        lens.tilt_direction_degrees =
+            numbers.single("tilt_direction_degrees", direction, ROTATIONS)?.unwrap_or(0.0);
+        let given_vfov = vfov_radians(span, &numbers, size, &sensor)?;
         if let Some(preset) = preset {
             preset.apply(&mut camera, &mut model, &mut lens);
         }
@@ -125,7 +126,7 @@ impl Shot {
         if table.sensor.is_some() {
             camera.sensor = sensor;
         }
-        camera.vfov_radians = vfov_radians.unwrap_or(camera.vfov_radians);
+        camera.vfov_radians = given_vfov.unwrap_or(camera.vfov_radians);
         if camera.vfov_radians.is_nan() {
             return Err(ParseError::at(span, NEEDS_VFOV));
         }
@@ -137,8 +138,8 @@ impl Shot {
         if let Some(name) = &table.model {
             model = named(&CameraModel::NAMES, name, "camera model")?;
         }
-        let diameter = ranged("lens_diameter", table.lens_diameter.as_ref(), DIAMETERS)?;
-        match (diameter, ranged("f_number", table.f_number.as_ref(), F_NUMBERS)?) {
+        let diameter = numbers.single("lens_diameter", table.lens_diameter.as_ref(), DIAMETERS)?;
+        match (diameter, numbers.double("f_number", table.f_number.as_ref(), F_NUMBERS)?) {
             (Some(diameter), None) => lens.diameter = diameter,
             (None, Some(f_number)) => lens.diameter = camera.diameter_of_f_number(f_number) as f32,
             (None, None) if model == CameraModel::Pinhole && lens.diameter.is_nan() => lens.diameter = 0.0,
@@ -153,35 +154,44 @@ impl Shot {
         if model == CameraModel::ThinLens {
             camera
                 .can_focus(&lens)
-                .map_err(|wrong| ParseError::at(focal_distance, &format!("focal_distance {wrong}")))?;
+                .map_err(|wrong| ParseError::at(&table.focal_distance, &format!("focal_distance {wrong}")))?;
         }
-        let hole = ranged("hole_diameter", table.hole_diameter.as_ref(), DIAMETERS)?;
+        let hole = numbers.single("hole_diameter", table.hole_diameter.as_ref(), DIAMETERS)?;
         let diameter = hole.unwrap_or(camera.default_hole_diameter());
         Ok(Self {
             camera,
             model,
             lens,
             hole: Hole { diameter, upright: table.upright },
-            aperture: aperture(span, folder)?,
-            shutter: ranged("shutter", table.shutter.as_ref(), SHUTTERS)?.unwrap_or(DEFAULT_SHUTTER),
-            iso: ranged("iso", table.iso.as_ref(), ISOS)?.unwrap_or(View::default().iso),
+            aperture: aperture(span, &numbers, folder)?,
+            shutter: numbers.single("shutter", table.shutter.as_ref(), SHUTTERS)?.unwrap_or(DEFAULT_SHUTTER),
+            iso: numbers.single("iso", table.iso.as_ref(), ISOS)?.unwrap_or(View::default().iso),
         })
     }
 }
 
-impl CameraTable {
-    /// The vertical field of view, if the table gives it.
-    fn vfov_radians(&self, size: [u32; 2], sensor: &Sensor) -> Result<Option<f64>, &'static str> {
-        match (&self.vfov_degrees, &self.focal_length, &self.view_distance, &self.pixel_size) {
-            (None, None, None, None) => Ok(None),
-            (Some(degrees), None, None, None) => Ok(Some(degrees.get_ref().to_radians())),
-            (None, Some(mm), None, None) => Ok(Some(sensor.vfov_of_focal_length(*mm.get_ref()))),
-            (None, None, Some(distance), Some(pixel)) => {
-                let half_height = 0.5 * f64::from(size[1]) * pixel.f64();
-                Ok(Some(2.0 * (half_height / distance.f64()).atan()))
-            }
-            _ => Err(NEEDS_VFOV),
+/// The vertical field of view, if the table gives it.
+fn vfov_radians(
+    span: &Spanned<CameraTable>,
+    numbers: &Quantities,
+    size: [u32; 2],
+    sensor: &Sensor,
+) -> Result<Option<f64>, ParseError> {
+    let table = span.get_ref();
+    let lengths = [MIN_LENGTH, MAX_LENGTH].map(f64::from);
+    let degrees = numbers.double("vfov_degrees", table.vfov_degrees.as_ref(), VFOV_DEGREES)?;
+    let focal_length = numbers.double("focal_length", table.focal_length.as_ref(), FOCAL_LENGTHS_MM)?;
+    let distance = numbers.double("view_distance", table.view_distance.as_ref(), lengths)?;
+    let pixel = numbers.double("pixel_size", table.pixel_size.as_ref(), lengths)?;
+    match (degrees, focal_length, distance, pixel) {
+        (None, None, None, None) => Ok(None),
+        (Some(degrees), None, None, None) => Ok(Some(degrees.to_radians())),
+        (None, Some(mm), None, None) => Ok(Some(sensor.vfov_of_focal_length(mm))),
+        (None, None, Some(distance), Some(pixel)) => {
+            let half_height = 0.5 * f64::from(size[1]) * pixel;
+            Ok(Some(2.0 * (half_height / distance).atan()))
         }
+        _ => Err(ParseError::at(span, NEEDS_VFOV)),
     }
 }
 
@@ -191,7 +201,11 @@ fn sensor(text: &Spanned<String>) -> Result<Sensor, ParseError> {
     Ok(sensor)
 }
 
-fn aperture(span: &Spanned<CameraTable>, folder: &Path) -> Result<Aperture, ParseError> {
+fn aperture(
+    span: &Spanned<CameraTable>,
+    numbers: &Quantities,
+    folder: &Path,
+) -> Result<Aperture, ParseError> {
     let table = span.get_ref();
     let read = |file: &Spanned<String>| {
         let image = ApertureImage::read(&folder.join(file.get_ref()));
@@ -205,13 +219,20 @@ fn aperture(span: &Spanned<CameraTable>, folder: &Path) -> Result<Aperture, Pars
     let plain = Aperture::default();
     let aperture = Aperture {
         blades: table.blades.as_ref().map_or(plain.blades, |blades| *blades.get_ref()),
-        rotation_degrees: ranged("blade_rotation_degrees", rotation, ROTATIONS)?
+        rotation_degrees: numbers
+            .single("blade_rotation_degrees", rotation, ROTATIONS)?
             .unwrap_or(plain.rotation_degrees),
-        roundness: ranged("roundness", table.roundness.as_ref(), ROUNDNESSES)?.unwrap_or(plain.roundness),
-        anamorphic: ranged("anamorphic", table.anamorphic.as_ref(), ANAMORPHICS)?.unwrap_or(plain.anamorphic),
-        cats_eye: ranged("cats_eye", table.cats_eye.as_ref(), CATS_EYES)?.unwrap_or(plain.cats_eye),
+        roundness: numbers
+            .single("roundness", table.roundness.as_ref(), ROUNDNESSES)?
+            .unwrap_or(plain.roundness),
+        anamorphic: numbers
+            .single("anamorphic", table.anamorphic.as_ref(), ANAMORPHICS)?
+            .unwrap_or(plain.anamorphic),
+        cats_eye: numbers.single("cats_eye", table.cats_eye.as_ref(), CATS_EYES)?.unwrap_or(plain.cats_eye),
         image: table.aperture_image.as_ref().map(read).transpose()?,
-        profile: ranged("bokeh_profile", table.bokeh_profile.as_ref(), PROFILES)?.unwrap_or(plain.profile),
+        profile: numbers
+            .single("bokeh_profile", table.bokeh_profile.as_ref(), PROFILES)?
+            .unwrap_or(plain.profile),
     };
     aperture
         .validate(|| ["blades", "cats_eye", "aperture_image"])

@@ -2,6 +2,7 @@
 //! structs speak only of maps, sequences and fields.
 
 use super::error::ParseError;
+use super::quantity::unit_of;
 use crate::scene::light::LIGHT_NAMES;
 use crate::scene::material::MATERIAL_NAMES;
 use crate::scene::shape::SHAPE_NAMES;
@@ -169,8 +170,8 @@ const COLOR: &str = "a colour, three numbers [r, g, b]";
 const COLOR_OR_CHECKER: &str = "[r, g, b], or { even = [r, g, b], odd = [r, g, b], size = EDGE }";
 
 /// The kind of value that a key takes.
-fn value_of(table: Option<&str>, key: &str) -> &'static str {
-    match (table, key) {
+fn value_of(table: Option<&str>, key: &str) -> String {
+    let known = match (table, key) {
         (None, "size") => "[width, height], two whole numbers of pixels",
         (Some("matte" | "phong"), "color") => COLOR_OR_CHECKER,
         (_, "color" | "horizon" | "zenith" | "even" | "odd") => COLOR,
@@ -185,9 +186,18 @@ fn value_of(table: Option<&str>, key: &str) -> &'static str {
         }
         (_, "tolerance") => "a text like \"0.03 mm\", or a number of pixels",
         (_, "shadows" | "upright" | "focus_breathing" | "exposure_lock") => "true or false, without quotes",
-        (_, "blades" | "max_bounces") => "a whole number, 0 or more",
-        _ => "a number",
-    }
+        (_, "blades" | "max_bounces" | "abbe_number") => "a whole number, 0 or more",
+        _ => match unit_of(key).filter(|_| table.is_some_and(takes_text)) {
+            Some(unit) => return format!("a number, or a text in quotes: {}", unit.right()),
+            None => "a number",
+        },
+    };
+    known.into()
+}
+
+/// Whether the numbers of a table can also be texts with a unit.
+fn takes_text(table: &str) -> bool {
+    ["camera", "view"].contains(&table)
 }
 
 /// A description of a value.
@@ -317,7 +327,12 @@ fn not_toml(text: &str, error: &toml::de::Error) -> ParseError {
         _ if message.starts_with("string values must be quoted") && word.is_empty() => {
             "here a value is missing".into()
         }
-        _ if is_number => format!("'{word}' is not a number; one is written like 0.5, -2 or 1e-3"),
+        _ if is_number => {
+            let quoted = format!("; a number with a unit or a fraction stands in quotes: \"{word}\"");
+            let quoted = Some(quoted).filter(|_| table_at(text, span.start).is_some_and(takes_text));
+            let quoted = quoted.unwrap_or_default();
+            format!("'{word}' is not a number; one is written like 0.5, -2 or 1e-3{quoted}")
+        }
         _ if message.starts_with("string values must be quoted") => {
             format!("a name stands in quotes: \"{word}\"")
         }
@@ -329,6 +344,12 @@ fn not_toml(text: &str, error: &toml::de::Error) -> ParseError {
         other => format!("this is not TOML: {}", other.replace('\n', "; ")),
     };
     ParseError { span, message }
+}
+
+/// The name of the table that a position is in, if the table's header stands on a line of its own.
+fn table_at(text: &str, at: usize) -> Option<&str> {
+    let mut upwards = text.get(..at)?.lines().rev();
+    upwards.find_map(|line| line.trim().strip_prefix('[')?.strip_suffix(']'))
 }
 
 /// The end of the word at a position, and the word. Words are separated by blanks, commas, brackets and quotes.

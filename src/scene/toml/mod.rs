@@ -7,6 +7,7 @@ mod material_list;
 mod mesh;
 mod messages;
 pub(super) mod number;
+mod quantity;
 pub(super) mod text;
 mod view;
 

@@ -4,7 +4,6 @@ use super::error::ParseError;
 use crate::scene::{MAX_BOUNCES, MAX_EXTENT, MAX_LENGTH, MIN_LENGTH, PLACES, in_range};
 use glam::{DVec3, Vec3};
 use serde::Deserialize;
-use std::fmt::{Display, LowerExp};
 use toml::Spanned;
 
 #[derive(Deserialize)]
@@ -30,21 +29,6 @@ pub(in crate::scene) struct Extent(pub(in crate::scene) u32);
 #[derive(Deserialize)]
 #[serde(try_from = "i64")]
 pub(in crate::scene) struct Count(pub(in crate::scene) u32);
-
-/// Checks the range of a number that may be left out.
-pub(super) fn ranged<T>(
-    key: &str,
-    number: Option<&Spanned<T>>,
-    range: [T; 2],
-) -> Result<Option<T>, ParseError>
-where
-    T: Copy + PartialOrd + Display + LowerExp,
-{
-    let Some(number) = number else { return Ok(None) };
-    let value = *number.get_ref();
-    in_range(value, range).map_err(|wrong| ParseError::at(number, &format!("{key} {wrong}")))?;
-    Ok(Some(value))
-}
 
 /// Reads a vector that may be left out.
 pub(in crate::scene) fn zero() -> Vector {

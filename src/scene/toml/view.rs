@@ -1,7 +1,7 @@
 //! The table `[view]`.
 
 use super::error::{ParseError, named};
-use super::number::ranged;
+use super::quantity::{Quantities, Quantity};
 use crate::scene::{EXPOSURES, Overlay, Tolerance, View};
 use serde::Deserialize;
 use toml::Spanned;
@@ -9,7 +9,7 @@ use toml::Spanned;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ViewTable {
-    exposure: Option<Spanned<f32>>,
+    exposure: Option<Spanned<Quantity>>,
     exposure_lock: Option<bool>,
     overlay: Option<Spanned<String>>,
     tolerance: Option<Spanned<Written>>,
@@ -30,8 +30,11 @@ pub(super) fn view(table: Option<&Spanned<ViewTable>>) -> Result<View, ParseErro
         return Ok(plain);
     };
     let overlay = table.overlay.as_ref();
+    // No key of this table is a length in scene units.
+    let numbers = Quantities { metres_per_unit: 1.0 };
     Ok(View {
-        exposure_stops: ranged("exposure", table.exposure.as_ref(), EXPOSURES)?
+        exposure_stops: numbers
+            .single("exposure", table.exposure.as_ref(), EXPOSURES)?
             .unwrap_or(plain.exposure_stops),
         exposure_lock: table.exposure_lock.unwrap_or(plain.exposure_lock),
         overlay: overlay.map(|name| named(&Overlay::NAMES, name, "overlay")).transpose()?,

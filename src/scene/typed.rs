@@ -1,5 +1,5 @@
-//! Numbers as people type them, such as `1/250 s`, `f/2,8` or `85 mm`. The options of the command line and the fields of
-//! the panel read them here, and the panel shows them with their units.
+//! Numbers as people type them, such as `1/250 s`, `f/2,8` or `85 mm`. Options, scene files and the fields of the panel
+//! read them here, and the panel shows them with their units.
 
 /// What a number measures. It decides what may stand before and after the number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -80,7 +80,7 @@ impl Unit {
     }
 
     /// How such a number is written.
-    fn right(self) -> &'static str {
+    pub fn right(self) -> &'static str {
         match self {
             Self::Plain => "a number is written like 0.5, -2 or 1e-3",
             Self::FNumber => "an f-number is written like 2.8 or f/2.8",
