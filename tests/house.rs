@@ -398,3 +398,71 @@ fn files_that_texts_name_exist() {
     let quoted = ["src/lib.rs", "src/NAME.rs", "x"].map(|path| format!("`{path}`")).join(" or ");
     assert_eq!(paths(&quoted), ["src/lib.rs"]);
 }
+
+/// What a line of `app` spells out of the look of the viewer, if anything: a colour, a size of what is drawn, or a style.
+fn spelled_out(line: &str) -> Option<&str> {
+    let code = line.split("//").next().unwrap_or_default();
+    let is_number = |text: &str| {
+        let text = text.trim();
+        text.contains('.') && text.parse::<f32>().is_ok()
+    };
+    let is_color = |inner: &str| {
+        let repeated = inner.split_once(';').is_some_and(|(number, times)| {
+            is_number(number) && ["3", "4"].contains(&times.trim()) && number.trim() != "0.0"
+        });
+        repeated || (inner.split(',').count() >= 3 && inner.split(',').all(is_number))
+    };
+    let brackets = code.split('[').skip(1).filter_map(|rest| rest.split(']').next());
+    let color = brackets.into_iter().any(is_color);
+    let sizes = [".rounding(", ".thickness(", "set_next_item_width(", "_with_spacing(", "_with_pos("];
+    let size = sizes.iter().any(|call| {
+        let given = code.split(call).skip(1).filter_map(|rest| rest.split([',', ')']).next());
+        given.into_iter().any(|number| is_number(number) && !["0.0", "-1.0"].contains(&number.trim()))
+    });
+    let style = ["StyleVar::", "StyleColor::"]
+        .iter()
+        .any(|kind| code.contains(kind) && !code.contains("style_color("));
+    (color || size || style).then_some(line)
+}
+
+/// Catches a colour, a space or a width that stands beside the theme: the parts of the viewer would look each in its own
+/// way again.
+#[test]
+fn only_the_theme_says_how_the_viewer_looks() {
+    let app = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/app");
+    // Directions of flight.
+    let others = ["theme.rs", "navigate.rs"];
+    let mut found = Vec::new();
+    walk(&app, &mut |path| {
+        if others.iter().any(|other| path.ends_with(other)) {
+            return;
+        }
+        let text = std::fs::read_to_string(path).expect("a readable file");
+        let name = path.file_name().expect("a name").to_string_lossy().into_owned();
+        let own = text.split("#[cfg(test)]").next().unwrap_or_default();
+        found.extend(own.lines().filter_map(spelled_out).map(|line| format!("{name}: {}", line.trim())));
+    });
+    assert_eq!(found, Vec::<String>::new());
+}
+
+#[test]
+fn a_spelled_out_look_is_found() {
+    for bad in [
+        "const LINE: [f32; 4] = [1.0, 1.0, 1.0, 0.45];",
+        "ui.text_colored([1.0, 0.85, 0.5, 1.0], keys);",
+        "beside(ui, help, [1.0; 4]);",
+        "list.add_rect(a, b, color).rounding(4.0).build();",
+        "ui.set_next_item_width(150.0);",
+        "let _spacing = ui.push_style_var(StyleVar::ItemSpacing([6.0, 8.0]));",
+    ] {
+        assert!(spelled_out(bad).is_some(), "{bad}");
+    }
+    for good in [
+        "list.add_rect(a, b, theme::EDGE).rounding(ROUNDING).build();",
+        "ui.set_next_item_width(-1.0);",
+        "const BLURS: [f32; 2] = [1.0, 200.0];",
+        "let color = ui.style_color(StyleColor::Text);",
+    ] {
+        assert_eq!(spelled_out(good), None);
+    }
+}

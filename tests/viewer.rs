@@ -31,7 +31,7 @@ fn sliders_change_what_is_rendered() {
 
     // The points up: the count goes on from where it is.
     viewer.history.borrow_mut().clear();
-    viewer.drag("Anti-aliasing points per pixel", &[0.29, 0.31, 0.33], |viewer| viewer.shown.borrow().1 > 8);
+    viewer.drag("Points per pixel", &[0.29, 0.31, 0.33], |viewer| viewer.shown.borrow().1 > 8);
     viewer.wait_until_done();
     let history = viewer.history.borrow().clone();
     assert!(history.iter().all(|samples| *samples >= 8), "it started anew: {history:?}");
@@ -49,8 +49,8 @@ fn sliders_change_what_is_rendered() {
     viewer.click("Reset", |viewer| viewer.state.borrow()[0] == default);
     viewer.wait_for("reset", |viewer| *viewer.shown.borrow() == (8, 8));
     viewer.expect_picture("the scene's own lens again", 0, &["-n", "8"]);
-    viewer.click("Sampling", |viewer| viewer.controls.borrow().contains_key("One centre ray per pixel"));
-    viewer.click("One centre ray per pixel", |viewer| viewer.state.borrow()[2] == 0.0);
+    viewer.click("Sampling", |viewer| viewer.controls.borrow().contains_key("No anti-aliasing"));
+    viewer.click("No anti-aliasing", |viewer| viewer.state.borrow()[2] == 0.0);
     viewer.expect_picture("one centre ray", 0, &["-n", "8", "--jitter", "0"]);
 
     // Another size of the window.

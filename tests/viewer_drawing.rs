@@ -289,7 +289,9 @@ fn parts_of_the_drawing_are_moved_by_hand() {
 
     drag([rim_x, rim_y + 2], [rim_x, (rim_y + axis) / 2 + 2]);
     let [narrow, same, _] = *viewer.state.borrow();
-    assert!((narrow / diameter - 0.5).abs() < 0.02, "the lens is {narrow} wide");
+    // The places are known to a pixel.
+    let pixel = ((axis - rim_y) as f32).recip();
+    assert!((narrow / diameter - 0.5).abs() < 1.5 * pixel, "the lens is {narrow} wide");
     assert!(same == focal_distance && *viewer.view.borrow() == view, "only the rim moves");
     undo();
 

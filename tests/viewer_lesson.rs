@@ -54,7 +54,7 @@ fn the_lesson_notices_what_was_done() {
         viewer.click_once("f/16");
     });
     step("more points", "Finish", &|| {
-        viewer.drag("Anti-aliasing points per pixel", &[0.28, 0.3], |viewer| viewer.shown.borrow().1 > 4);
+        viewer.drag("Points per pixel", &[0.28, 0.3], |viewer| viewer.shown.borrow().1 > 4);
     });
     assert!(viewer.message.borrow().contains("That was the lesson"), "{}", viewer.message.borrow());
     assert!(!shows(&viewer, "Skip step"), "the lesson goes on after its last step");

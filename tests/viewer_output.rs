@@ -39,7 +39,7 @@ fn a_picture_is_rendered_in_another_size_than_the_windows() {
     );
 
     // With so many points, it does not end by itself.
-    viewer.drag("Anti-aliasing points per pixel", &[0.5, 1.0], |viewer| viewer.shown.borrow().1 > 1000);
+    viewer.drag("Points per pixel", &[0.5, 1.0], |viewer| viewer.shown.borrow().1 > 1000);
     let before = viewer.folder.read_dir().expect("a folder").count();
     viewer.click("Render to file", |viewer| viewer.controls.borrow().contains_key("Stop rendering"));
     viewer.wait_for("what it begins to write", |viewer| {

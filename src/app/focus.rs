@@ -5,6 +5,7 @@ use super::area::Area;
 use super::guide::Guide;
 use super::optics::Pin;
 use super::panel::Panel;
+use super::theme::{self, DOT, FOCUS_MARK, FRAME_STROKE, PIN, SPACING, STROKE};
 use super::words::{self, length};
 use super::{navigate, telemetry};
 use crate::diagram::Diagram;
@@ -25,8 +26,6 @@ const NUDGE: f32 = 1.02;
 const STILL: f32 = 3.0;
 /// The focal plane goes through a point if it is this near to it, relative to its distance.
 const IN_PLANE: f64 = 1e-4;
-/// The radius of the mark, in points.
-const MARK_RADIUS: f32 = 13.0;
 
 /// What the user asked for with the pointer, and the answers of the device.
 #[derive(Default)]
@@ -323,13 +322,14 @@ impl Focus {
         let centre = area.in_window(*at);
         let fade = 1.0 - since.elapsed().as_secs_f32() / MARK.as_secs_f32();
         let (color, text) =
-            if *found { ([1.0, 0.85, 0.3], None) } else { ([0.55, 0.75, 1.0], Some("infinitely far away")) };
-        let with_alpha = |alpha: f32| [color[0], color[1], color[2], alpha];
+            if *found { (theme::ACCENT, None) } else { (theme::MARK, Some("infinitely far away")) };
+        let color = theme::faded(color, fade);
         let list = ui.get_background_draw_list();
-        list.add_circle(centre, MARK_RADIUS, with_alpha(fade)).thickness(2.0).num_segments(32).build();
-        list.add_circle(centre, 1.5, with_alpha(fade)).filled(true).build();
+        list.add_circle(centre, FOCUS_MARK, color).thickness(FRAME_STROKE).num_segments(32).build();
+        list.add_circle(centre, DOT, color).filled(true).build();
         if let Some(text) = text {
-            list.add_text([centre[0] + MARK_RADIUS + 6.0, centre[1] - 8.0], with_alpha(fade), text);
+            let top = centre[1] - 0.5 * ui.text_line_height();
+            list.add_text([centre[0] + FOCUS_MARK + SPACING[0], top], color, text);
         }
     }
 
@@ -358,8 +358,8 @@ impl Focus {
     pub(super) fn draw_pin(ui: &Ui, pin: Pin, area: &Area) {
         let centre = area.in_window([0, 1].map(|axis| pin.share[axis] * area.pixels[axis] as f32));
         let list = ui.get_background_draw_list();
-        for (radius, color) in [(5.0, [0.0, 0.0, 0.0, 0.6]), (4.0, [1.0, 1.0, 1.0, 0.9])] {
-            list.add_circle(centre, radius, color).thickness(1.5).build();
+        for (radius, color) in [(PIN + 1.0, theme::SHADE), (PIN, theme::MARK)] {
+            list.add_circle(centre, radius, color).thickness(STROKE).build();
         }
     }
 }

@@ -1,9 +1,11 @@
 //! Settings that are made by clicks on the picture. A sentence over the picture says what to click next.
 
 use super::area::Area;
+use super::over_picture::{Over, Place};
+use super::theme::BLUR_WIDTH;
 use super::words::length;
 use crate::settings::Settings;
-use imgui::{Condition, Key, Ui, WindowFlags};
+use imgui::{Key, Ui};
 
 /// What the next clicks on the picture are for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,8 +29,6 @@ pub(super) enum Guide {
 const DEFAULT_BLUR: f32 = 20.0;
 /// The blurs to choose from, in pixels.
 const BLURS: [f32; 2] = [1.0, 200.0];
-/// The distance of the sentence from the upper edge of the picture, in points.
-const TOP: f32 = 12.0;
 
 impl Guide {
     /// What the lens should be sharp at, and how far it should blur another place.
@@ -70,35 +70,25 @@ impl Guide {
 
     /// Shows the sentence that says what to click. Returns the guide, unless it is left by Escape or the button.
     pub(super) fn draw(mut self, ui: &Ui, area: &Area) -> Option<Self> {
-        let ([left, top], [right, _]) = (area.min(), area.max());
+        let sentence = match self {
+            Self::Focus => "Click what should be sharp.",
+            Self::Blur { sharp: None, .. } => "1 of 2: click what should be sharp.",
+            Self::Blur { .. } => "2 of 2: choose the blur, and click what should be blurred so far.",
+            Self::Range { first: None } => "1 of 2: click where it should begin to be sharp.",
+            Self::Range { .. } => "2 of 2: click where it should end to be sharp.",
+        };
         let mut left_by_button = false;
-        ui.window("##guide")
-            .position([0.5 * (left + right), top + TOP], Condition::Always)
-            .position_pivot([0.5, 0.0])
-            .flags(
-                WindowFlags::NO_DECORATION
-                    | WindowFlags::ALWAYS_AUTO_RESIZE
-                    | WindowFlags::NO_DOCKING
-                    | WindowFlags::NO_SAVED_SETTINGS,
-            )
-            .build(|| {
-                ui.text(match self {
-                    Self::Focus => "Click what should be sharp.",
-                    Self::Blur { sharp: None, .. } => "1 of 2: click what should be sharp.",
-                    Self::Blur { .. } => "2 of 2: choose the blur, and click what should be blurred so far.",
-                    Self::Range { first: None } => "1 of 2: click where it should begin to be sharp.",
-                    Self::Range { .. } => "2 of 2: click where it should end to be sharp.",
-                });
-                if let Self::Blur { sharp: Some(_), pixels } = &mut self {
-                    ui.set_next_item_width(200.0);
-                    let [low, high] = BLURS;
-                    ui.slider_config("##pixels", low, high)
-                        .display_format("blurred over %.0f px")
-                        .build(pixels);
-                    ui.same_line();
-                }
-                left_by_button = ui.small_button("Leave (Esc)");
-            });
+        let width = ui.calc_text_size(sentence)[0].max(BLUR_WIDTH);
+        Over::new("##guide", Place::Top, [width, 0.0]).draw(ui, area, || {
+            ui.text_wrapped(sentence);
+            if let Self::Blur { sharp: Some(_), pixels } = &mut self {
+                ui.set_next_item_width(BLUR_WIDTH);
+                let [low, high] = BLURS;
+                ui.slider_config("##pixels", low, high).display_format("blurred over %.0f px").build(pixels);
+                ui.same_line();
+            }
+            left_by_button = ui.button("Leave (Esc)");
+        });
         (!left_by_button && !ui.is_key_pressed(Key::Escape)).then_some(self)
     }
 }

@@ -1,39 +1,10 @@
-//! Keys that work wherever the pointer is, and the list of all keys.
+//! Keys that work wherever the pointer is. `ui` lists them.
 
 use super::dialog::Purpose;
 use super::ui::Action;
-use imgui::{Condition, Io, Key, Ui};
+use imgui::{Io, Key, Ui};
 use winit::event::WindowEvent;
 use winit::keyboard::{Key as WinitKey, ModifiersState, NamedKey};
-
-/// What the mouse and the keys do, as shown to the user.
-const LIST: [(&str, &str); 25] = [
-    ("Right click, F", "focus on what is under the pointer"),
-    ("Ctrl + wheel", "move the focal plane"),
-    ("Click", "say what is there; while Optics is open, draw its optics"),
-    ("Double click", "look there, and orbit around it"),
-    ("Drag", "orbit around what the camera looks at"),
-    ("Shift + drag, middle drag", "pan"),
-    ("Wheel", "come nearer or go away"),
-    ("W A S D, Q E", "fly forward, left, back, right; down, up"),
-    ("Home", "the scene's own camera"),
-    ("V", "view all: move away until all of the scene is in the picture"),
-    ("O", "optics"),
-    ("C", "compare: hold this picture on the left, or release it"),
-    ("P", "pause, and go on"),
-    ("H", "hide everything but the picture, or show it"),
-    ("Ctrl + Z", "undo"),
-    ("Ctrl + Shift + Z, Ctrl + Y", "redo"),
-    ("Ctrl + O", "open a file"),
-    ("Ctrl + S", "save the picture"),
-    ("Ctrl + Shift + S", "save the scene"),
-    ("Ctrl + C", "copy the command line that renders it"),
-    ("Tab, arrows, Space", "walk through the panel"),
-    ("Ctrl + click, Enter", "type a number into a slider, such as 1/250, f/2.8 or 1.2 m"),
-    ("Left, right", "move the slider under the pointer a little; with Shift, ten times as far"),
-    ("L", "the lesson: six steps that show what a lens does"),
-    ("?, F1", "this list"),
-];
 
 /// A key that has no meaning here.
 const SEPARATOR: Key = Key::ScrollLock;
@@ -102,28 +73,4 @@ pub(super) fn pressed(ui: &Ui) -> Option<Action> {
         plain.into_iter().find(|(key, _)| pressed(*key))
     };
     chosen.map(|(_, action)| action)
-}
-
-/// Shows the list of keys, while it is open.
-pub(super) fn help(ui: &Ui, open: &mut bool) {
-    if !*open {
-        return;
-    }
-    let [width, height] = ui.io().display_size;
-    ui.window("Keys")
-        .position([0.5 * width, 0.5 * height], Condition::Always)
-        .position_pivot([0.5, 0.5])
-        .size_constraints([0.0; 2], [width, height])
-        .horizontal_scrollbar(true)
-        .always_auto_resize(true)
-        .collapsible(false)
-        .opened(open)
-        .build(|| {
-            let column = LIST.iter().map(|(keys, _)| ui.calc_text_size(keys)[0]).fold(0.0, f32::max) + 24.0;
-            for (keys, meaning) in LIST {
-                ui.text_colored([1.0, 0.85, 0.5, 1.0], keys);
-                ui.same_line_with_pos(ui.cursor_start_pos()[0] + column);
-                ui.text(meaning);
-            }
-        });
 }

@@ -68,8 +68,8 @@ pub(super) static STEPS: [Step; 6] = [
     },
     Step {
         title: "More points, less noise",
-        text: "Choose f/2 again, and drag Anti-aliasing points per pixel to the right. Each point is a ray through another place of the pixel and of the lens. Four times as many halve the noise of their mean.",
-        controls: &["Anti-aliasing points per pixel"],
+        text: "Choose f/2 again, and drag Points per pixel to the right. Each point is a ray through another place of the pixel and of the lens. Four times as many halve the noise of their mean.",
+        controls: &["Points per pixel"],
         done: |now, start| now.samples > start.samples,
     },
 ];

@@ -1,10 +1,8 @@
 //! The state of the drawing of the optics. `ui` draws it.
 
+use super::theme::STRIP;
 use crate::diagram::{KEPT, Part, Scale, View};
 use glam::DVec2;
-
-/// The height of the strip below the picture unless the user has changed it, in points.
-pub(super) const STRIP: f32 = 320.0;
 
 /// The state of the strip below the picture that draws the optics.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -8,9 +8,10 @@ use super::guide::Guide;
 use super::lesson::{Lesson, Seen};
 use super::memory::Memory;
 use super::message::{Kind, Messages, Offer};
-use super::optics::{Optics, STRIP};
+use super::optics::Optics;
 use super::render_job::RenderJob;
 use super::save_as::{self, Files, SaveAs, absolute};
+use super::theme::{MIN_PANEL_WIDTH, MIN_STRIP, PANEL_WIDTH, STRIP};
 use super::typing::Typing;
 use super::zoom_lock::ZoomLock;
 use crate::error::Error;
@@ -24,13 +25,8 @@ use winit::window::Window;
 /// The largest number of recent files.
 const MAX_RECENT: usize = 8;
 
-/// The width of the panel unless the user has changed it, and the narrowest one, in points.
-const WIDTH: f32 = 320.0;
-const MIN_WIDTH: f32 = 240.0;
 /// The panel takes at most this share of the window.
 const MAX_SHARE: f32 = 0.8;
-/// The lowest height of the strip below the picture, in points.
-const MIN_STRIP: f32 = 160.0;
 /// The strip takes at most this share of the window.
 const MAX_STRIP_SHARE: f32 = 0.65;
 
@@ -151,7 +147,7 @@ impl Panel {
             output: options.memory.output.filter(|size| size.iter().all(|extent| *extent > 0)),
             thirds: false,
             job: None,
-            width: options.memory.panel_width.unwrap_or(WIDTH),
+            width: options.memory.panel_width.unwrap_or(PANEL_WIDTH),
             hidden: false,
             folds: options.memory.folds.clone(),
             extents: (settings.estimator.scene.clone(), Extents::of(&settings.estimator.scene)),
@@ -221,7 +217,7 @@ impl Panel {
 
     /// The width of the column that the panel takes in a window of this width, in points.
     pub(super) fn column(&self, window: f32) -> f32 {
-        if self.hidden { 0.0 } else { self.width.max(MIN_WIDTH).min(MAX_SHARE * window).floor() }
+        if self.hidden { 0.0 } else { self.width.max(MIN_PANEL_WIDTH).min(MAX_SHARE * window).floor() }
     }
 
     /// The height of the strip that the drawing of the optics takes in a window of this height, in points.

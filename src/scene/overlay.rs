@@ -83,7 +83,7 @@ pub const OVERLAYS: [Entry; 7] = [
         source: Source::Surface,
         full_scale: FullScale::Number(1.0),
         colors: &[SLICE; 2],
-        labels: |_, distance| labels(&format!("at a depth of {distance:.4}"), "", ""),
+        labels: |_, distance| labels(&format!("{} from the lens", rounded(distance)), "", ""),
     },
     Entry {
         overlay: Overlay::CircleOfConfusion,
@@ -104,7 +104,7 @@ pub const OVERLAYS: [Entry; 7] = [
         full_scale: FullScale::Number(1.0),
         // The labels are at equal steps of F / (F + depth).
         colors: &[[1.0; 3], [0.75; 3], [0.5; 3], [0.25; 3], [0.0; 3]],
-        labels: |_, distance| labels("lens", &format!("{distance:.4}"), "far away"),
+        labels: |_, distance| labels("lens", &rounded(distance), "far away"),
     },
     Entry {
         overlay: Overlay::Normals,
@@ -144,6 +144,11 @@ pub const OVERLAYS: [Entry; 7] = [
         labels: |full, _| labels("0", "", &format!("{:.0}% or more", 100.0 * full)),
     },
 ];
+
+/// A distance without the digits that come of its storage as an f32.
+fn rounded(distance: f32) -> String {
+    ((1e4 * f64::from(distance)).round() / 1e4).to_string()
+}
 
 fn labels(left: &str, middle: &str, right: &str) -> [String; 3] {
     [left, middle, right].map(str::to_owned)

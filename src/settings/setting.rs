@@ -126,6 +126,7 @@ pub struct Row {
 pub enum Part {
     Top,
     Points,
+    Sharp,
     Camera,
     Lens,
     Aperture,

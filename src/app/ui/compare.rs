@@ -3,15 +3,13 @@
 use super::widgets::{Layout, note_item};
 use crate::app::area::Area;
 use crate::app::panel::{Held, Panel};
+use crate::app::theme::{
+    self, DIVIDER_REACH, DIVIDER_SHADE, HANDLE, LABEL_GAP, LABEL_PADDING, LABEL_TOP, MARK, SHADE, STROKE,
+};
 use crate::app::words::length;
 use crate::scene::CameraModel;
 use crate::settings::Settings;
-use imgui::{Condition, MouseCursor, StyleVar, Ui, WindowFlags};
-
-/// The line can be dragged from this distance, in points.
-const REACH: f32 = 6.0;
-const LINE: [f32; 4] = [1.0, 1.0, 1.0, 0.85];
-const SHADE: [f32; 4] = [0.0, 0.0, 0.0, 0.65];
+use imgui::{Condition, MouseCursor, Ui, WindowFlags};
 
 /// Describes the picture that is held, with its settings.
 pub(super) fn held(settings: &Settings, share: f32) -> Held {
@@ -27,13 +25,10 @@ impl Panel {
         };
         let ([left, _], [width, height]) = (area.min(), area.size());
         let x = left + (held.share * width).round();
-        let _bare = (
-            ui.push_style_var(StyleVar::WindowPadding([0.0; 2])),
-            ui.push_style_var(StyleVar::WindowMinSize([1.0; 2])),
-        );
+        let _unseen = theme::unseen(ui);
         ui.window("##divider")
-            .position([x - REACH, 0.0], Condition::Always)
-            .size([2.0 * REACH, height], Condition::Always)
+            .position([x - DIVIDER_REACH, 0.0], Condition::Always)
+            .size([2.0 * DIVIDER_REACH, height], Condition::Always)
             .flags(
                 WindowFlags::NO_DECORATION
                     | WindowFlags::NO_BACKGROUND
@@ -43,7 +38,7 @@ impl Panel {
                     | WindowFlags::NO_BRING_TO_FRONT_ON_FOCUS,
             )
             .build(|| {
-                ui.invisible_button("##line", [2.0 * REACH, height]);
+                ui.invisible_button("##line", [2.0 * DIVIDER_REACH, height]);
                 note_item(ui, "Divider", layout);
                 if ui.is_item_active() {
                     held.share = ((ui.io().mouse_pos[0] - left) / width).clamp(0.0, 1.0);
@@ -53,24 +48,29 @@ impl Panel {
                 }
             });
         let list = ui.get_background_draw_list();
-        list.add_line([x, 0.0], [x, height], SHADE).thickness(4.0).build();
-        list.add_line([x, 0.0], [x, height], LINE).thickness(1.5).build();
+        list.add_line([x, 0.0], [x, height], SHADE).thickness(DIVIDER_SHADE).build();
+        list.add_line([x, 0.0], [x, height], MARK).thickness(STROKE).build();
         let middle = 0.5 * height;
-        list.add_circle([x, middle], 9.0, SHADE).filled(true).build();
-        list.add_circle([x, middle], 9.0, LINE).thickness(1.5).build();
+        list.add_circle([x, middle], HANDLE, SHADE).filled(true).build();
+        list.add_circle([x, middle], HANDLE, MARK).thickness(STROKE).build();
+        // An arrow to each side.
         for side in [-1.0, 1.0] {
-            let tip = x + side * 6.0;
-            let back = x + side * 2.5;
-            list.add_triangle([tip, middle], [back, middle - 3.5], [back, middle + 3.5], LINE)
+            let at = |share: f32| x + side * share * HANDLE;
+            let (above, below) = (middle - 0.4 * HANDLE, middle + 0.4 * HANDLE);
+            list.add_triangle([at(0.7), middle], [at(0.3), above], [at(0.3), below], MARK)
                 .filled(true)
                 .build();
         }
         let label = |text: &str, at_left: bool| {
             let [text_width, text_height] = ui.calc_text_size(text);
-            let left = if at_left { x - 18.0 - text_width } else { x + 18.0 };
-            let (min, max) = ([left - 6.0, 10.0], [left + text_width + 6.0, 18.0 + text_height]);
-            list.add_rect(min, max, SHADE).filled(true).rounding(4.0).build();
-            list.add_text([left, 14.0], [1.0; 4], text);
+            let [across, down] = LABEL_PADDING;
+            let beside = LABEL_GAP + across;
+            let left = if at_left { x - beside - text_width } else { x + beside };
+            let top = LABEL_TOP + down;
+            let (min, max) =
+                ([left - across, LABEL_TOP], [left + text_width + across, top + text_height + down]);
+            list.add_rect(min, max, SHADE).filled(true).rounding(down).build();
+            list.add_text([left, top], theme::TEXT, text);
         };
         label(&format!("held: {}", held.words), true);
         label(&now, false);

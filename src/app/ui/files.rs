@@ -1,11 +1,12 @@
 //! The part of the panel for opening and saving files.
 
 use super::Action;
-use super::widgets::{LONGEST, Layout, button, combo, from_end, named, note_item, pressed};
+use super::widgets::{Layout, button, combo, from_end, named, note_item, toggle};
 use crate::app::dialog::Purpose;
 use crate::app::message::Kind;
 use crate::app::panel::Panel;
 use crate::app::save_as::SaveAs;
+use crate::app::theme::PATH_WIDTH;
 use crate::renderer::Progress;
 use imgui::Ui;
 use std::path::PathBuf;
@@ -22,7 +23,7 @@ impl Panel {
             for (number, file) in self.recent.iter().enumerate() {
                 // imgui needs an id, because two files may be shown by the same name.
                 let _id = ui.push_id_usize(number);
-                if ui.selectable(from_end(ui, &file.to_string_lossy(), LONGEST)) {
+                if ui.selectable(from_end(ui, &file.to_string_lossy(), PATH_WIDTH)) {
                     wanted = Some(file.clone());
                 }
                 note_item(ui, "Recent file", layout);
@@ -61,23 +62,24 @@ impl Panel {
         );
         let help = "Chooses the file in a dialog, and writes the picture as it is now.";
         action = browse("Save picture as ...", Purpose::Save(Kind::Picture), help, layout).or(action);
-        let mut ask = |name, asks, help| {
-            if button(ui, name, help, layout) {
+        let mut ask = |name, is_on, asks, help| {
+            if toggle(ui, name, is_on, help, layout) {
                 action = Some(asks);
             }
         };
-        ask("Save picture", Action::SavePicture, "Writes the picture as it is now (Ctrl+S).");
+        ask("Save picture", false, Action::SavePicture, "Writes the picture as it is now (Ctrl+S).");
         ui.same_line();
         ui.disabled(progress.samples >= self.settings.samples, || {
-            let _pressed = self.save_when_done.then(|| pressed(ui));
             ask(
                 "Save when done",
+                self.save_when_done,
                 Action::SaveWhenDone,
                 "Writes the picture once it has all of its points. Press again to change your mind.",
             );
         });
         ask(
             "Copy command line",
+            false,
             Action::CopyCommand,
             "Copies the command that renders this picture to the clipboard (Ctrl+C).",
         );

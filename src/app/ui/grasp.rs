@@ -2,15 +2,12 @@
 
 use super::widgets::Layout;
 use crate::app::optics::{HeldPart, Optics};
+use crate::app::theme::{GRASP_REACH, HALO, HALO_WIDTH};
 use crate::diagram::{Diagram, Drawing, Part, View};
 use crate::scene::{CameraModel, DIAMETERS, FOCAL_DISTANCES, FOCAL_LENGTHS_MM, MAX_LENGTH, MIN_LENGTH};
 use crate::settings::Estimator;
 use imgui::{MouseButton, MouseCursor, Ui};
 
-/// A part can be grasped from this far away, in points.
-const REACH: f32 = 7.0;
-/// The colour around a part that can be moved.
-const HALO: [f32; 4] = [1.0, 1.0, 1.0, 0.30];
 /// A part comes no nearer to the lens than this, in points.
 const CLOSEST: f32 = 8.0;
 
@@ -25,7 +22,7 @@ impl Optics {
         estimator: &mut Estimator,
     ) {
         let pointer = [0, 1].map(|axis| ui.io().mouse_pos[axis] - corner[axis]);
-        let under_pointer = drawing.handles.iter().find(|handle| handle.distance(pointer) <= REACH);
+        let under_pointer = drawing.handles.iter().find(|handle| handle.distance(pointer) <= GRASP_REACH);
         if ui.is_item_activated() {
             self.held = under_pointer.zip(drawing.scale).map(|(handle, scale)| {
                 let on_it = handle.nearest(pointer);
@@ -107,9 +104,9 @@ fn halo(ui: &Ui, drawing: &Drawing, part: Part, corner: [f32; 2]) {
     for handle in drawing.handles.iter().filter(|handle| handle.part == part) {
         let [from, to] = handle.line.map(|[x, y]| [corner[0] + x, corner[1] + y]);
         if from == to {
-            list.add_circle(from, 8.0, HALO).filled(true).build();
+            list.add_circle(from, HALO_WIDTH, HALO).filled(true).build();
         } else {
-            list.add_line(from, to, HALO).thickness(8.0).build();
+            list.add_line(from, to, HALO).thickness(HALO_WIDTH).build();
         }
     }
 }

@@ -3,10 +3,12 @@
 use super::widgets::{Layout, note_item, tooltip};
 use crate::app::guide::Guide;
 use crate::app::panel::Panel;
+use crate::app::theme::{self, ICON_GAP};
 use crate::app::words::length;
 use crate::scene::{CameraModel, FOCAL_DISTANCES};
 use crate::settings::Part;
 use imgui::Ui;
+use std::mem::discriminant;
 
 /// The f-numbers of the third stops, as they are engraved on lenses. Every third one is a full stop and has a button.
 const THIRD_STOPS: [(f64, &str); 31] = [
@@ -53,6 +55,7 @@ impl Panel {
         self.rows(ui, Part::Lens, layout);
         let camera = &self.settings.estimator.camera;
         ui.text(format!("35 mm equivalent: {:.0} mm", camera.focal_length_35mm()));
+        tooltip(ui, "The focal length that gives the same field of view on full frame, 36 x 24 mm.");
         if self.settings.estimator.model != CameraModel::ThinLens {
             return;
         }
@@ -86,22 +89,23 @@ impl Panel {
     fn stops(&mut self, ui: &Ui, layout: &mut Layout) {
         let estimator = &mut self.settings.estimator;
         let now = estimator.f_number();
-        let width = (ui.content_region_avail()[0] + 4.0) / STOPS_PER_ROW as f32 - 4.0;
-        let _spacing = ui.push_style_var(imgui::StyleVar::ItemSpacing([4.0, 4.0]));
-        let _padding = ui.push_style_var(imgui::StyleVar::FramePadding([2.0, 3.0]));
+        let width = (ui.content_region_avail()[0] + ICON_GAP) / STOPS_PER_ROW as f32 - ICON_GAP;
+        let _table = theme::table(ui);
         for (i, (stop, name)) in THIRD_STOPS.into_iter().step_by(3).enumerate() {
             if i % STOPS_PER_ROW != 0 {
                 ui.same_line();
             }
+            let _on = ((now / stop - 1.0).abs() < SAME_STOP).then(|| theme::on(ui));
             if ui.button_with_size(name, [width, 0.0]) {
                 estimator.set_f_number(stop);
             }
             note_item(ui, name, layout);
+            tooltip(ui, "Sets this f-number. Each full stop lets in half the light of the one before.");
         }
         let stops = THIRD_STOPS.map(|(stop, _)| stop);
         let wider = stops.into_iter().rev().find(|stop| *stop < now * (1.0 - SAME_STOP));
         let narrower = stops.into_iter().find(|stop| *stop > now * (1.0 + SAME_STOP));
-        let half = 0.5 * (ui.content_region_avail()[0] - 4.0);
+        let half = 0.5 * (ui.content_region_avail()[0] - ICON_GAP);
         for (name, help, next) in [
             ("1/3 stop wider", "Lets in a quarter more light: the next wider stop.", wider),
             ("1/3 stop narrower", "Lets in a fifth less light: the next narrower stop.", narrower),
@@ -130,9 +134,13 @@ impl Panel {
                 "Chooses the focal plane and the f-number for you: click the nearest and the farthest thing that should be sharp.",
             ),
         ] {
+            let same = |now: &Guide| discriminant(now) == discriminant(&guide);
+            let is_on = self.guide.as_ref().is_some_and(same);
+            let on = is_on.then(|| theme::on(ui));
             if ui.button_with_size(name, [half, 0.0]) {
-                self.guide = Some(guide);
+                self.guide = (!is_on).then_some(guide);
             }
+            drop(on);
             note_item(ui, name, layout);
             tooltip(ui, help);
             ui.same_line();

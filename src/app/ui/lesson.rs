@@ -1,11 +1,12 @@
 //! What is written over the picture for those who are new: the greeting, and the lesson.
 
-use super::MARGIN;
 use super::widgets::{Layout, button, note_item, note_window};
 use crate::app::area::Area;
 use crate::app::lesson::{Lesson, STEPS};
+use crate::app::over_picture::{Over, Place};
 use crate::app::panel::Panel;
-use imgui::{Condition, Key, MouseButton, StyleColor, StyleVar, Ui, WindowFlags, WindowHoveredFlags};
+use crate::app::theme::{self, FRAME_STROKE, LESSON_WIDTH, SPACING};
+use imgui::{Key, MouseButton, Ui, WindowHoveredFlags};
 
 const GREETING: [&str; 3] = [
     "Drag the picture to look around. Right-click something to focus on it.",
@@ -13,12 +14,6 @@ const GREETING: [&str; 3] = [
     "O draws what the lens does with light. ? lists all that the mouse and the keys do.",
 ];
 const FAREWELL: &str = "That was the lesson. docs/optics.md has the formulas behind it.";
-/// The largest width of the text of the lesson, in points.
-const WIDTH: f32 = 460.0;
-const PADDING: f32 = 12.0;
-const BACKGROUND: [f32; 4] = [0.08, 0.09, 0.11, 0.94];
-const TITLE: [f32; 4] = [1.0, 0.85, 0.5, 1.0];
-const DONE: [f32; 4] = [0.5, 0.9, 0.55, 1.0];
 
 impl Panel {
     /// Draws the greeting or the lesson, if there is one.
@@ -39,7 +34,7 @@ impl Panel {
     fn greeting(&mut self, ui: &Ui, area: &Area, layout: &mut Layout) {
         let widest = GREETING.map(|line| ui.calc_text_size(line)[0]).into_iter().fold(0.0, f32::max);
         let (mut starts, mut is_over) = (false, false);
-        over_picture(ui, "##greeting", area, widest, || {
+        Over::new("##greeting", Place::LowerLeft, [widest, 0.0]).draw(ui, area, || {
             let wrapping = ui.push_text_wrap_pos();
             GREETING.into_iter().for_each(|line| ui.text_wrapped(line));
             drop(wrapping);
@@ -74,9 +69,9 @@ impl Panel {
         lesson.check(&self.seen());
         let (step, last) = (lesson.step(), lesson.number() == STEPS.len());
         let (mut goes_on, mut leaves) = (false, false);
-        over_picture(ui, "##lesson", area, WIDTH, || {
+        Over::new("##lesson", Place::LowerLeft, [LESSON_WIDTH, 0.0]).draw(ui, area, || {
             let wrapping = ui.push_text_wrap_pos();
-            ui.text_colored(TITLE, format!("{} of {}: {}", lesson.number(), STEPS.len(), step.title));
+            ui.text_colored(theme::ACCENT, format!("{} of {}: {}", lesson.number(), STEPS.len(), step.title));
             ui.text_wrapped(step.text);
             drop(wrapping);
             ui.spacing();
@@ -93,7 +88,7 @@ impl Panel {
             if lesson.done {
                 ui.same_line();
                 ui.align_text_to_frame_padding();
-                ui.text_colored(DONE, "Done.");
+                ui.text_colored(theme::ACCENT, "Done.");
             }
             note_window(ui, "Lesson", layout);
         });
@@ -109,34 +104,11 @@ impl Panel {
         if let Some((_, rectangle)) = controls.iter().find_map(place) {
             let scale = ui.io().display_framebuffer_scale;
             let [left, top, width, height] = rectangle.map(|pixels| pixels as f32);
-            let min = [left / scale[0] - 3.0, top / scale[1] - 3.0];
-            let max = [(left + width) / scale[0] + 3.0, (top + height) / scale[1] + 3.0];
+            let beyond = 0.5 * SPACING[1];
+            let min = [left / scale[0] - beyond, top / scale[1] - beyond];
+            let max = [(left + width) / scale[0] + beyond, (top + height) / scale[1] + beyond];
             let list = ui.get_foreground_draw_list();
-            list.add_rect(min, max, TITLE).rounding(5.0).thickness(2.0).build();
+            list.add_rect(min, max, theme::ACCENT).rounding(beyond).thickness(FRAME_STROKE).build();
         }
     }
-}
-
-/// Draws a window at the lower left of the picture that holds text of this width, as far as there is room.
-fn over_picture(ui: &Ui, name: &str, area: &Area, text_width: f32, content: impl FnOnce()) {
-    let [left, bottom] = [area.min()[0], area.max()[1]];
-    let room = (area.size()[0] - 2.0 * MARGIN).max(80.0);
-    let _style = (
-        ui.push_style_var(StyleVar::WindowPadding([PADDING; 2])),
-        ui.push_style_color(StyleColor::WindowBg, BACKGROUND),
-    );
-    ui.window(name)
-        .position([left + MARGIN, bottom - MARGIN], Condition::Always)
-        .position_pivot([0.0, 1.0])
-        // Only the width is fixed: the height follows from the text.
-        .size([(text_width + 2.0 * PADDING + 1.0).min(room), 0.0], Condition::Always)
-        .flags(
-            WindowFlags::NO_DECORATION
-                | WindowFlags::NO_MOVE
-                | WindowFlags::NO_NAV
-                | WindowFlags::NO_DOCKING
-                | WindowFlags::NO_SAVED_SETTINGS
-                | WindowFlags::NO_FOCUS_ON_APPEARING,
-        )
-        .build(content);
 }

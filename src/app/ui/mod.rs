@@ -5,6 +5,8 @@ mod compare;
 mod drawing;
 mod files;
 mod grasp;
+mod icons;
+mod keys;
 mod lens;
 mod lesson;
 mod light;
@@ -25,21 +27,15 @@ use super::guide::Guide;
 use super::message::Offer;
 use super::panel::{Panel, builtin};
 use super::telemetry;
+use super::theme::{self, GROUP_GAP, ICON, ICON_GAP, MIN_SECTIONS, PATH_WIDTH, SPACING};
 use crate::diagram::{Diagram, sharp_depths};
 use crate::renderer::{Excerpt, Picked, Progress};
 use crate::scene::CameraModel;
 use crate::settings::Part;
-use imgui::{Condition, StyleColor, StyleVar, Ui, WindowFlags};
+use icons::{Icon, IconButton};
+use imgui::{Condition, Ui, WindowFlags};
 use optics::Seen;
-use widgets::{
-    Folds, LONGEST, Layout, Side, button, combo, edge, from_end, note_item, pressed, section, tick, tooltip,
-};
-
-/// The space around what lies over the picture, in points.
-const MARGIN: f32 = 12.0;
-/// The least height of the sections. In a lower window, the whole panel scrolls.
-const MIN_SECTIONS: f32 = 150.0;
-const BACKGROUND: [f32; 4] = [0.08, 0.09, 0.11, 1.0];
+use widgets::{Folds, Layout, Row, Side, button, edge, from_end, list, note_item, section, tick};
 
 /// What the panel shows besides the settings.
 pub(super) struct Status<'a> {
@@ -63,6 +59,8 @@ pub(super) struct Status<'a> {
 pub(super) enum Action {
     /// Focus on what is in the middle of the picture.
     Autofocus,
+    /// Focus on what is clicked next, or leave that.
+    PickFocus,
     /// Restore the settings that the scene was opened with.
     Reset,
     /// Restore the position of the camera that the scene was opened with.
@@ -101,6 +99,32 @@ pub(super) enum Action {
     CopyCommand,
 }
 
+/// A button in the head of the panel, with an icon or with its name.
+struct HeadButton {
+    asks: Action,
+    icon: Option<Icon>,
+    name: &'static str,
+    help: &'static str,
+    is_on: bool,
+    can: bool,
+}
+
+impl HeadButton {
+    fn width(&self, ui: &Ui) -> f32 {
+        let padding = 2.0 * ui.clone_style().frame_padding[0];
+        self.icon.map_or_else(|| ui.calc_text_size(self.name)[0] + padding, |_| ICON)
+    }
+
+    /// Draws the button. Returns whether it is pressed.
+    fn draw(&self, ui: &Ui, layout: &mut Layout) -> bool {
+        let Self { icon, name, help, is_on, can, .. } = *self;
+        match icon {
+            Some(icon) => IconButton { icon, name, help, is_on, can }.draw(ui, layout),
+            None => button(ui, name, help, layout),
+        }
+    }
+}
+
 impl Panel {
     /// Draws the panel and what lies over the picture, and changes the settings as the user does.
     /// `room` is the part of the window that is left for the picture, and `area` the picture itself.
@@ -109,11 +133,7 @@ impl Panel {
         let mut action = None;
         if !self.hidden {
             let [width, _] = room.min();
-            let _style = (
-                ui.push_style_var(StyleVar::WindowRounding(0.0)),
-                ui.push_style_var(StyleVar::WindowBorderSize(0.0)),
-                ui.push_style_color(StyleColor::WindowBg, BACKGROUND),
-            );
+            let _part = theme::part(ui);
             ui.window("##panel")
                 .position([0.0; 2], Condition::Always)
                 // The panel covers whole pixels, and nothing else paints them.
@@ -151,6 +171,7 @@ impl Panel {
             self.teach(ui, area, &mut layout);
         }
         self.guide = self.guide.and_then(|guide| guide.draw(ui, area));
+        keys::keys(ui, &mut self.keys, room, &mut layout);
         action = self.messages.draw(ui, area, &mut layout).map(Action::Accept).or(action);
         if layout != self.layout {
             for (name, [x, y, width, height]) in &layout {
@@ -164,12 +185,15 @@ impl Panel {
     /// Draws what stays in view, and below it the sections, which scroll.
     fn column_of_controls(&mut self, ui: &Ui, status: &Status<'_>, layout: &mut Layout) -> Option<Action> {
         let mut folds = std::mem::take(&mut self.folds);
-        self.scene_chooser(ui, layout);
+        let mut action = self.scene_and_help(ui, layout);
         self.main_sliders(ui, layout);
         self.rows(ui, Part::Points, layout);
         self.progress(ui, status);
-        let mut action = self.buttons(ui, status, layout);
-        section(ui, "What is sharp", true, &mut folds, layout, |_| self.numbers(ui, status.picked));
+        action = self.buttons(ui, status, layout).or(action);
+        section(ui, "What is sharp", true, &mut folds, layout, |layout| {
+            self.numbers(ui, status.picked);
+            self.rows(ui, Part::Sharp, layout);
+        });
         let [_, room] = ui.content_region_avail();
         ui.child_window("##sections").size([0.0, room.max(MIN_SECTIONS)]).build(|| {
             action = self.sections(ui, status, &mut folds, layout).or(action);
@@ -191,66 +215,94 @@ impl Panel {
         }
     }
 
-    fn buttons(&mut self, ui: &Ui, status: &Status<'_>, layout: &mut Layout) -> Option<Action> {
+    /// Draws the row of buttons in groups: for focus and light, for changes, and for the picture.
+    fn buttons(&self, ui: &Ui, status: &Status<'_>, layout: &mut Layout) -> Option<Action> {
+        let usual = |asks, icon, name, help| HeadButton { asks, icon, name, help, is_on: false, can: true };
+        let (pause, pauses) = if self.paused { (Icon::GoOn, "Go on") } else { (Icon::Pause, "Pause") };
+        let groups = [
+            vec![
+                usual(
+                    Action::Autofocus,
+                    None,
+                    "Autofocus",
+                    "Focuses on what is in the middle of the picture. To focus on something else, right-click it, or point at it and press F. Ctrl and the wheel move the focal plane.",
+                ),
+                HeadButton {
+                    is_on: self.guide == Some(Guide::Focus),
+                    ..usual(
+                        Action::PickFocus,
+                        Some(Icon::Point),
+                        "Pick focus",
+                        "Pick focus: focuses on what you click next in the picture, as a right click does at once.",
+                    )
+                },
+                HeadButton {
+                    is_on: self.optics.open,
+                    ..usual(
+                        Action::Optics,
+                        Some(Icon::Optics),
+                        "Optics",
+                        "Optics (O): draws what the lens does with the light of one pixel. Click the picture to choose the pixel.",
+                    )
+                },
+            ],
+            vec![
+                HeadButton {
+                    can: status.can_undo,
+                    ..usual(
+                        Action::Undo,
+                        Some(Icon::Undo),
+                        "Undo",
+                        "Undo (Ctrl+Z): takes back the last change.",
+                    )
+                },
+                HeadButton {
+                    can: status.can_redo,
+                    ..usual(
+                        Action::Redo,
+                        Some(Icon::Redo),
+                        "Redo",
+                        "Redo (Ctrl+Shift+Z): makes the change again that was undone last.",
+                    )
+                },
+                usual(
+                    Action::Reset,
+                    None,
+                    "Reset",
+                    "Restores all settings that the scene was opened with, those of the camera too. It can be undone.",
+                ),
+            ],
+            vec![
+                HeadButton {
+                    is_on: self.held.is_some(),
+                    ..usual(
+                        Action::Compare,
+                        Some(Icon::Compare),
+                        "Compare",
+                        "Compare (C): holds this picture on the left, so that you see your changes beside it. Press again to release it.",
+                    )
+                },
+                HeadButton {
+                    is_on: self.paused,
+                    ..usual(
+                        Action::Pause,
+                        Some(pause),
+                        pauses,
+                        "Pause (P): stops rendering, and the picture stays as it is. Press again to go on.",
+                    )
+                },
+            ],
+        ];
         let mut action = None;
-        // Four buttons fit in a row of the narrowest panel.
-        let _spacing = ui.push_style_var(imgui::StyleVar::ItemSpacing([6.0, 8.0]));
-        let mut ask = |name, asks, help| {
-            if button(ui, name, help, layout) {
-                action = Some(asks);
-            }
-            ui.same_line();
-        };
-        ask(
-            "Autofocus",
-            Action::Autofocus,
-            "Focuses on what is in the middle of the picture. To focus on something else, right-click it, or point at it and press F. Ctrl and the wheel move the focal plane.",
-        );
-        ask("Reset", Action::Reset, "Restores the settings that the scene was opened with.");
-        let help = "Focuses on what you click next in the picture, as a right click does at once.";
-        if button(ui, "Pick focus", help, layout) {
-            self.guide = Some(Guide::Focus);
-        }
-        ui.same_line();
-        let help = "Draws what the lens does with the light of one pixel (O). Click the picture to choose the pixel.";
-        let is_open = self.optics.open.then(|| pressed(ui));
-        if button(ui, "Optics", help, layout) {
-            action = Some(Action::Optics);
-        }
-        drop(is_open);
-        for (name, asks, help) in [
-            ("Undo", Action::Undo, "Undoes the last change (Ctrl+Z)."),
-            ("Redo", Action::Redo, "Redoes the change that was undone last (Ctrl+Shift+Z)."),
-            (
-                "Compare",
-                Action::Compare,
-                "Holds this picture on the left, so that you see your changes beside it (C). Press again to release it.",
-            ),
-            (
-                if self.paused { "Go on" } else { "Pause" },
-                Action::Pause,
-                "Stops rendering; the picture stays as it is (P).",
-            ),
-            ("?", Action::Keys, "Lists what the mouse and the keys do (?)."),
-        ] {
-            let (can, is_on) = match asks {
-                Action::Undo => (status.can_undo, false),
-                Action::Redo => (status.can_redo, false),
-                Action::Compare => (true, self.held.is_some()),
-                Action::Pause => (true, self.paused),
-                _ => (true, self.keys),
-            };
-            ui.disabled(!can, || {
-                let _pressed = is_on.then(|| pressed(ui));
-                if ui.button(name) {
-                    action = Some(asks);
+        let mut row = Row::default();
+        for group in &groups {
+            for (number, button) in group.iter().enumerate() {
+                row.next(ui, button.width(ui), if number == 0 { GROUP_GAP } else { ICON_GAP });
+                if button.draw(ui, layout) {
+                    action = Some(button.asks);
                 }
-            });
-            note_item(ui, name, layout);
-            tooltip(ui, help);
-            ui.same_line();
+            }
         }
-        ui.new_line();
         action
     }
 
@@ -311,17 +363,21 @@ impl Panel {
         self.held = Some(compare::held(self.shown(), 0.5));
     }
 
-    fn scene_chooser(&mut self, ui: &Ui, layout: &mut Layout) {
+    /// Draws the list of scenes, and at its right the button for help.
+    fn scene_and_help(&mut self, ui: &Ui, layout: &mut Layout) -> Option<Action> {
         let mut chosen = None;
         let shown = self.settings.estimator.scene.source.clone();
         let help = "The scene: a built-in one, or one that you have opened.";
-        let room = ui.content_region_avail()[0] - 40.0;
+        let width = ui.content_region_avail()[0] - ICON - SPACING[0];
+        // The arrow of the list is as wide as it is high.
+        let room = width - 2.0 * ui.frame_height();
         let preview = from_end(ui, &shown.to_string_lossy(), room);
-        combo(ui, "Scene", &preview, help, layout, |layout| {
+        ui.set_next_item_width(width);
+        list(ui, "Scene", &preview, help, layout, |layout| {
             for (number, name) in self.scenes.iter().enumerate() {
                 // imgui needs an id, because two scenes may be shown by the same name.
                 let _id = ui.push_id_usize(number);
-                let label = from_end(ui, &name.to_string_lossy(), LONGEST);
+                let label = from_end(ui, &name.to_string_lossy(), PATH_WIDTH);
                 if ui.selectable_config(label).selected(*name == shown).build() {
                     chosen = Some(name.clone());
                 }
@@ -334,5 +390,9 @@ impl Panel {
         if let Some(name) = chosen {
             self.open(&name);
         }
+        ui.same_line();
+        let help = "Help (?): lists what the mouse and the keys do.";
+        let button = IconButton { icon: Icon::Help, name: "Help", help, is_on: self.keys, can: true };
+        button.draw(ui, layout).then_some(Action::Keys)
     }
 }

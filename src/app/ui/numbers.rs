@@ -2,16 +2,19 @@
 
 use super::widgets::tooltip;
 use crate::app::panel::Panel;
+use crate::app::theme;
 use crate::app::words::{self, length, with_digits};
 use crate::renderer::Picked;
 use crate::scene::CameraModel;
 use imgui::Ui;
 
-/// The color of what needs attention.
-const NOTICE: [f32; 4] = [1.0, 0.72, 0.35, 1.0];
+/// The lines of this section: those of the lens, and those of what is under the pointer.
+const LINES: usize = 5;
 
 impl Panel {
     pub(super) fn numbers(&mut self, ui: &Ui, picked: Option<&Picked>) {
+        let _close = theme::close(ui);
+        let top = ui.cursor_pos()[1];
         let depths = self.depths();
         let estimator = &self.settings.estimator;
         let (camera, lens) = (&estimator.camera, &estimator.lens);
@@ -26,12 +29,12 @@ impl Panel {
             if depths.is_empty() || depths.meet([near, far]) {
                 ui.text(sharp);
             } else {
-                ui.text_colored(NOTICE, format!("{sharp}: nothing is there"));
+                ui.text_colored(theme::ACCENT, format!("{sharp}: nothing is there"));
             }
             tooltip(
                 ui,
                 &format!(
-                    "The depth of field: what lies between these distances has a circle of confusion of at most {:.2} px. That is the tolerance, which you find under View. The orange marks of the focal plane's slider show where things are.",
+                    "The depth of field: what lies between these distances has a circle of confusion of at most {:.2} px. That is the tolerance, which you set below. The orange marks of the focal plane's slider show where things are.",
                     self.settings.tolerance_pixels()
                 ),
             );
@@ -55,25 +58,32 @@ impl Panel {
             ui.text(seen);
             tooltip(ui, of_seen);
         }
+        self.under_pointer(ui, picked);
+        // However many lines there are, what follows stays in its place.
+        let height = LINES as f32 * ui.text_line_height_with_spacing();
+        ui.set_cursor_pos([ui.cursor_pos()[0], top + height]);
+    }
+
+    /// Says what is under the pointer, and how far it is blurred.
+    fn under_pointer(&self, ui: &Ui, picked: Option<&Picked>) {
         let Some(picked) = picked else {
             ui.text_disabled("point at something to see its blur");
-            ui.new_line();
-            ui.new_line();
             return;
         };
         let Some(surface) = &picked.surface else {
             ui.text("background");
-            ui.new_line();
-            ui.new_line();
             return;
         };
-        ui.text(format!("{}, {} away", surface.material, length(surface.depth)));
-        for line in words::blur(&self.settings, surface.point) {
-            ui.text(line);
-            tooltip(
-                ui,
-                "The diameter of its circle of confusion: the spot on the film over which the lens spreads the light of one point.",
-            );
-        }
+        let [blur, side] = words::blur(&self.settings, surface.point);
+        let place = format!("{} at {}", surface.material, length(surface.depth));
+        let whole = if side.is_empty() { place.clone() } else { format!("{place}, {side}") };
+        let room = ui.content_region_avail()[0];
+        let fits = |text: &str| ui.calc_text_size(text)[0] <= room;
+        ui.text(if fits(&whole) { &whole } else { &place });
+        ui.text(&blur);
+        tooltip(
+            ui,
+            "The diameter of its circle of confusion: the spot on the film over which the lens spreads the light of one point.",
+        );
     }
 }

@@ -1,18 +1,18 @@
 //! The strip below the picture that draws the optics of one pixel.
 
-use super::BACKGROUND;
 use super::drawing::paint;
 use super::grasp::note_handles;
 use super::widgets::{Layout, Side, button, edge, note, note_item, note_window, tooltip};
 use crate::app::area::Area;
 use crate::app::optics::Optics;
 use crate::app::save_as::{absolute, unused_name};
+use crate::app::theme::{self, RAYS_WIDTH, VIEWS_WIDTH};
 use crate::diagram::{self, Diagram, KEPT, Look, VIEWS};
 use crate::error::Result;
 use crate::output;
 use crate::renderer::Excerpt;
 use crate::settings::Estimator;
-use imgui::{Condition, StyleColor, StyleVar, Ui, WindowFlags};
+use imgui::{Condition, Ui, WindowFlags};
 use std::path::{Path, PathBuf};
 
 /// The names of saved drawings. If there is such a file already, the name gets a number.
@@ -47,11 +47,7 @@ impl Optics {
         let diagram = moved.as_ref().or(diagram);
         let ([left, _], [_, top], [_, bottom]) = (area.min(), area.max(), ui.io().display_size);
         let width = area.size()[0];
-        let style = (
-            ui.push_style_var(StyleVar::WindowRounding(0.0)),
-            ui.push_style_var(StyleVar::WindowBorderSize(0.0)),
-            ui.push_style_color(StyleColor::WindowBg, BACKGROUND),
-        );
+        let part = theme::part(ui);
         ui.window("##optics")
             .position([left, top], Condition::Always)
             // The strip covers whole pixels, and nothing else paints them.
@@ -120,7 +116,7 @@ impl Optics {
                     None => ui.text_disabled("waiting for the device ..."),
                 }
             });
-        drop(style);
+        drop(part);
         if let Some(place) = edge(ui, "Edge of the drawing", [left, top], Side::Top(width), layout) {
             self.height = (bottom - place).round();
         }
@@ -150,7 +146,7 @@ impl Optics {
     }
 
     fn controls(&mut self, ui: &Ui, layout: &mut Layout) {
-        ui.set_next_item_width(80.0);
+        ui.set_next_item_width(RAYS_WIDTH);
         ui.slider_config("##rays", RAYS[0], RAYS[1]).display_format("%d rays").build(&mut self.rays);
         note_item(ui, "Rays", layout);
         tooltip(
@@ -158,7 +154,7 @@ impl Optics {
             "The number of rays that are drawn through the lens. Click the picture to choose another pixel.",
         );
         ui.same_line();
-        ui.set_next_item_width(150.0);
+        ui.set_next_item_width(VIEWS_WIDTH);
         match ui.begin_combo("##drawing", self.view.entry().label) {
             Some(_open) => {
                 for entry in &VIEWS {
@@ -191,7 +187,6 @@ impl Optics {
 fn background(ui: &Ui, [[left, top], [right, bottom]]: [[f32; 2]; 2]) {
     let ([x, y], [width, height]) = (ui.window_pos(), ui.window_size());
     let (end_x, end_y) = (x + width, y + height);
-    let color = ui.style_color(StyleColor::WindowBg);
     let list = ui.get_window_draw_list();
     list.with_clip_rect([x, y], [end_x, end_y], || {
         for (from, to) in [
@@ -200,7 +195,7 @@ fn background(ui: &Ui, [[left, top], [right, bottom]]: [[f32; 2]; 2]) {
             ([right, top], [end_x, bottom]),
             ([x, bottom], [end_x, end_y]),
         ] {
-            list.add_rect(from, to, color).filled(true).build();
+            list.add_rect(from, to, theme::GROUND).filled(true).build();
         }
     });
 }

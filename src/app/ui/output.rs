@@ -1,9 +1,10 @@
 //! The part of the panel for pictures that are rendered to a file, and the lines over the picture for them.
 
+use super::Action;
 use super::widgets::{Layout, button, combo, note_item, tick};
-use super::{Action, BACKGROUND};
 use crate::app::area::Area;
 use crate::app::panel::Panel;
+use crate::app::theme::{FAINT_MARK, GROUND};
 use imgui::Ui;
 
 /// The sizes to choose from, in pixels.
@@ -17,7 +18,6 @@ const SIZES: [(&str, [u32; 2]); 7] = [
     ("1080 x 1920, upright", [1080, 1920]),
 ];
 const AS_SHOWN: &str = "As large as it is shown";
-const LINE: [f32; 4] = [1.0, 1.0, 1.0, 0.45];
 
 impl Panel {
     pub(super) fn output(&mut self, ui: &Ui, layout: &mut Layout) -> Option<Action> {
@@ -65,7 +65,7 @@ pub(super) fn paint_around(ui: &Ui, room: &Area, area: &Area) {
         ([left, y], [x, to_y]),
         ([to_x, y], [right, to_y]),
     ] {
-        list.add_rect(min, max, BACKGROUND).filled(true).build();
+        list.add_rect(min, max, GROUND).filled(true).build();
     }
 }
 
@@ -75,7 +75,7 @@ pub(super) fn thirds(ui: &Ui, area: &Area) {
     let list = ui.get_background_draw_list();
     for third in [1.0 / 3.0, 2.0 / 3.0] {
         let (x, y) = (left + third * width, top + third * height);
-        list.add_line([x, top], [x, top + height], LINE).build();
-        list.add_line([left, y], [left + width, y], LINE).build();
+        list.add_line([x, top], [x, top + height], FAINT_MARK).build();
+        list.add_line([left, y], [left + width, y], FAINT_MARK).build();
     }
 }

@@ -1,13 +1,10 @@
 //! The legend of an overlay.
 
-use super::MARGIN;
 use crate::app::area::Area;
+use crate::app::over_picture::{Over, Place};
+use crate::app::theme::{LEGEND_BAR, LEGEND_WIDTH};
 use crate::settings::{Settings, to_srgb};
-use imgui::{Condition, Ui, WindowFlags};
-
-const WIDTH: f32 = 260.0;
-/// The height of the bar with the space below it, in points.
-const BAR: f32 = 18.0;
+use imgui::Ui;
 
 /// Draws the legend at the lower right of the picture.
 pub(super) fn legend(ui: &Ui, settings: &Settings, area: &Area) {
@@ -16,35 +13,24 @@ pub(super) fn legend(ui: &Ui, settings: &Settings, area: &Area) {
     };
     let entry = overlay.entry();
     let labels = (entry.labels)(settings.overlay_scale(overlay), settings.estimator.lens.focal_distance);
-    let [right, bottom] = area.max();
-    ui.window("##legend")
-        .position([right - MARGIN, bottom - MARGIN], Condition::Always)
-        .position_pivot([1.0; 2])
-        .size([WIDTH, height(ui)], Condition::Always)
-        .flags(
-            WindowFlags::NO_DECORATION
-                | WindowFlags::NO_INPUTS
-                | WindowFlags::NO_DOCKING
-                | WindowFlags::NO_FOCUS_ON_APPEARING,
-        )
-        .build(|| {
-            ui.text(entry.label);
-            bar(ui, entry.colors);
-            let [left, middle, right] = &labels;
-            let room = ui.content_region_avail()[0];
-            ui.text(left);
-            for (label, share) in [(middle, 0.5), (right, 1.0)] {
-                let [text_width, _] = ui.calc_text_size(label);
-                ui.same_line_with_pos(ui.cursor_start_pos()[0] + share * (room - text_width));
-                ui.text(label);
+    // Where the labels need more room than the colours, the legend becomes wider.
+    let widths = labels.each_ref().map(|label| ui.calc_text_size(label)[0]);
+    let apart = 2.0 * ui.calc_text_size(" ")[0];
+    let needed = 2.0 * (widths[0].max(widths[2]) + apart) + widths[1];
+    let size = [LEGEND_WIDTH.max(needed).max(ui.calc_text_size(entry.label)[0]), 0.0];
+    let over = Over { takes_pointer: false, ..Over::new("##legend", Place::LowerRight, size) };
+    over.draw(ui, area, || {
+        ui.text(entry.label);
+        bar(ui, entry.colors);
+        let room = ui.content_region_avail()[0];
+        for (place, (label, width)) in [0_u8, 1, 2].into_iter().zip(labels.iter().zip(widths)) {
+            if place > 0 {
+                let share = 0.5 * f32::from(place);
+                ui.same_line_with_pos(ui.cursor_start_pos()[0] + share * (room - width));
             }
-        });
-}
-
-/// A title, a bar, and a line of labels.
-fn height(ui: &Ui) -> f32 {
-    let style = ui.clone_style();
-    2.0 * (ui.text_line_height() + style.window_padding[1] + style.item_spacing[1]) + BAR
+            ui.text(label);
+        }
+    });
 }
 
 /// Draws a bar that blends from colour to colour in linear light, as the overlay does.
@@ -58,9 +44,9 @@ fn bar(ui: &Ui, colors: &[[f32; 3]]) {
         let (left, share) = (at as usize, at.fract());
         let linear = [0, 1, 2].map(|c| colors[left][c] + share * (colors[left + 1][c] - colors[left][c]));
         let [from, to] = [step, step + 1].map(|step| x + width * step as f32 / steps as f32);
-        list.add_rect([from, y], [to, y + 14.0], linear.map(|level| to_srgb(level.into()) as f32))
+        list.add_rect([from, y], [to, y + LEGEND_BAR], linear.map(|level| to_srgb(level.into()) as f32))
             .filled(true)
             .build();
     }
-    ui.dummy([width, BAR]);
+    ui.dummy([width, LEGEND_BAR]);
 }

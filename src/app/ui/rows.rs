@@ -4,24 +4,19 @@ use super::sensor::sensor;
 use super::tolerance::tolerance;
 use super::widgets::{Layout, beside, combo, heading, note_item, points_at_item, tick, tooltip};
 use crate::app::panel::Panel;
+use crate::app::theme::{self, SLIDER_MARK};
 use crate::app::typing::Typing;
 use crate::scene::{Depths, PLACES};
 use crate::settings::{
     Access, Choice, Field, Part, Row, Setting, Settings, Slider, Widget, list, to_linear, to_srgb,
 };
 use glam::DVec3;
-use imgui::{Drag, Key, MouseButton, SliderFlags, StyleColor, Ui};
+use imgui::{Drag, Key, MouseButton, SliderFlags, Ui};
 
 /// An arrow key moves a slider by this part of its length, or by ten times as much with Shift.
 const STEP: f64 = 0.002;
 /// The setting whose slider shows at which depths the picture has something.
 const FOCUS: &str = "focal-distance";
-/// The marks for things in the picture.
-const THING: [f32; 4] = [1.0, 0.78, 0.35, 0.75];
-/// The height of a mark, and its least width, in points.
-const MARK: [f32; 2] = [2.0, 3.0];
-/// The background of a field whose text was refused.
-const REFUSED: [f32; 4] = [0.50, 0.10, 0.10, 1.0];
 
 impl Panel {
     /// Draws the rows of a part of the panel.
@@ -156,7 +151,7 @@ impl Panel {
         if typing.without_keyboard == 0 {
             ui.set_keyboard_focus_here();
         }
-        let red = typing.refused.is_some().then(|| ui.push_style_color(StyleColor::FrameBg, REFUSED));
+        let red = typing.refused.is_some().then(|| theme::refused(ui));
         ui.set_next_item_width(-1.0);
         let field = ui.input_text("##typed", &mut typing.text);
         let entered = field.enter_returns_true(true).auto_select_all(true).build();
@@ -164,8 +159,8 @@ impl Panel {
         typing.without_keyboard = if ui.is_item_active() { 1 } else { typing.without_keyboard + 1 };
         let left = ui.is_item_deactivated() || typing.without_keyboard > 4;
         match &typing.refused {
-            Some(reason) => beside(ui, reason, [1.0, 0.55, 0.5, 1.0]),
-            None => beside(ui, "Enter takes what you type, Escape leaves it.", [1.0; 4]),
+            Some(reason) => beside(ui, reason, theme::FAILED_TEXT),
+            None => beside(ui, "Enter takes what you type, Escape leaves it.", theme::TEXT),
         }
         let over = if entered { typing.take(&mut self.settings) } else { left };
         if over {
@@ -218,6 +213,7 @@ fn slide(ui: &Ui, id: &str, setting: &Setting, slider: &Slider, settings: &mut S
     let mut now = share(slider, ends, setting.number(settings).unwrap_or(0.0));
     // imgui's own field reads 1/250 as 1.
     let flags = SliderFlags::NO_INPUT | SliderFlags::NO_ROUND_TO_FORMAT | SliderFlags::ALWAYS_CLAMP;
+    let _low = theme::slider(ui, now as f32);
     if ui.slider_config(id, 0.0, 1.0).display_format("").flags(flags).build(&mut now) {
         setting.set_number(settings, rounded_to(slider, at(slider, ends, now)));
     }
@@ -226,15 +222,15 @@ fn slide(ui: &Ui, id: &str, setting: &Setting, slider: &Slider, settings: &mut S
 /// Marks on the slider that was drawn last where the things in the picture are.
 fn mark_depths(ui: &Ui, depths: &Depths, share: impl Fn(f64) -> f64) {
     let ([left, _], [right, bottom]) = (ui.item_rect_min(), ui.item_rect_max());
-    // The middle of the knob keeps this distance from both ends.
-    let margin = 2.0 + 0.5 * ui.clone_style().grab_min_size;
-    let place = |depth: f64| left + margin + share(depth) as f32 * (right - left - 2.0 * margin);
+    let place = |depth: f64| left + theme::along_slider(right - left, share(depth) as f32);
+    let [height, least] = SLIDER_MARK;
+    let color = theme::faded(theme::ACCENT, theme::opacity(ui));
     let list = ui.get_window_draw_list();
     for [near, far] in &depths.shapes {
         let (from, to) = (place(*near), place(*far));
-        let from = from.min(0.5 * (from + to - MARK[1]));
-        let corners = ([from, bottom - MARK[0]], [to.max(from + MARK[1]), bottom]);
-        list.add_rect(corners.0, corners.1, THING).filled(true).build();
+        let from = from.min(0.5 * (from + to - least));
+        let corners = ([from, bottom - height], [to.max(from + least), bottom]);
+        list.add_rect(corners.0, corners.1, color).filled(true).build();
     }
 }
 

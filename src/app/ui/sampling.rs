@@ -1,7 +1,9 @@
 //! The parts of the panel for the progress of the picture and for the device.
 
 use super::Status;
+use super::widgets::tooltip;
 use crate::app::panel::Panel;
+use crate::app::theme::{self, BAR};
 use crate::renderer::Progress;
 use imgui::Ui;
 
@@ -27,10 +29,21 @@ impl Panel {
                 _ => format!(", {:.1} h left", seconds / 3600.0),
             };
         }
-        imgui::ProgressBar::new(samples as f32 / target as f32)
-            .size([-1.0, 0.0])
-            .overlay_text(text)
-            .build(ui);
+        let close = theme::close(ui);
+        ui.text(text);
+        drop(close);
+        tooltip(
+            ui,
+            "How many points each pixel has of those that it will have. The picture gets less grainy with each of them. Changing the lens or the camera begins anew.",
+        );
+        let ([x, y], [width, _]) = (ui.cursor_screen_pos(), ui.content_region_avail());
+        let share = (samples as f32 / target as f32).min(1.0);
+        let list = ui.get_window_draw_list();
+        for (part, color) in [(1.0, theme::EDGE), (share, theme::FILLED)] {
+            list.add_rect([x, y], [x + part * width, y + BAR], color).filled(true).build();
+        }
+        drop(list);
+        ui.dummy([width, BAR]);
     }
 }
 

@@ -1,12 +1,10 @@
 //! The row of the tolerance: a number, and the list of its units.
 
 use super::widgets::{Layout, note_item, tooltip};
+use crate::app::theme::{self, SPACING, UNIT_WIDTH};
 use crate::scene::{TOLERANCES_MM, TOLERANCES_PIXELS, Tolerance};
 use crate::settings::{Field, Row, Settings};
 use imgui::{SliderFlags, Ui};
-
-/// The width of the list of units, in points.
-const UNIT_WIDTH: f32 = 64.0;
 
 /// Draws the slider and the list. Another unit keeps what is sharp in this picture.
 pub(super) fn tolerance(
@@ -21,7 +19,7 @@ pub(super) fn tolerance(
     let pixels = settings.tolerance_pixels() as f32;
     let mm = settings.mm_of_pixels(1.0) as f32 * pixels;
     let mut now = before;
-    ui.set_next_item_width(-(UNIT_WIDTH + 4.0));
+    ui.set_next_item_width(-(UNIT_WIDTH + SPACING[0]));
     let (number, [low, high]) = match &mut now {
         Tolerance::Film(mm) => (mm, [0.001, 1.0]),
         Tolerance::Pixels(pixels) => (pixels, [0.1, 30.0]),
@@ -30,10 +28,12 @@ pub(super) fn tolerance(
         | SliderFlags::LOGARITHMIC
         | SliderFlags::NO_ROUND_TO_FORMAT
         | SliderFlags::NO_INPUT;
+    let low_slider = theme::slider(ui, (*number / low).ln() / (high / low).ln());
     ui.slider_config(id, low, high).display_format("").flags(flags).build(number);
+    drop(low_slider);
     note_item(ui, row.label, layout);
     tooltip(ui, row.help);
-    ui.same_line_with_spacing(0.0, 4.0);
+    ui.same_line();
     ui.set_next_item_width(-1.0);
     let unit = if matches!(now, Tolerance::Film(_)) { "mm" } else { "pixels" };
     match ui.begin_combo("##unit of the tolerance", unit) {

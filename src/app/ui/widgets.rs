@@ -2,18 +2,9 @@
 
 pub(super) use crate::app::panel::Layout;
 
-use imgui::{
-    Condition, ItemHoveredFlags, MouseButton, MouseCursor, StyleColor, StyleVar, TreeNodeFlags, Ui,
-    WindowFlags,
-};
+use crate::app::theme::{self, Color, GRIP, TOOLTIP_PADDING, TOOLTIP_WIDTH};
+use imgui::{Condition, ItemHoveredFlags, MouseButton, MouseCursor, TreeNodeFlags, Ui, WindowFlags};
 use std::collections::BTreeMap;
-
-/// The width of the strip with which a part of the window is made larger, in points.
-const EDGE: f32 = 6.0;
-/// The width of a line of a tooltip, in points.
-const TOOLTIP_WIDTH: f32 = 280.0;
-/// The space between a tooltip and what it explains, and around its text, in points.
-const TOOLTIP_MARGIN: f32 = 8.0;
 
 /// Draws a control as wide as the panel, with its name above it.
 pub(super) fn named(
@@ -23,7 +14,9 @@ pub(super) fn named(
     layout: &mut Layout,
     control: impl FnOnce(String),
 ) {
+    let close = theme::close(ui);
     ui.text(name);
+    drop(close);
     ui.set_next_item_width(-1.0);
     control(format!("##{name}"));
     note_item(ui, name, layout);
@@ -41,6 +34,7 @@ pub(super) struct Heading {
 
 /// Draws the name of a row, and its number at the right edge.
 pub(super) fn heading(ui: &Ui, name: &str, number: &str, help: &str) -> Heading {
+    let _close = theme::close(ui);
     ui.text(name);
     tooltip(ui, &format!("{help} A double click resets it to the scene's value."));
     let hovers_name = points_at_item(ui);
@@ -67,41 +61,40 @@ pub(super) fn points_at_item(ui: &Ui) -> bool {
 
 /// Explains the last item, once the pointer has rested on it for a moment.
 pub(super) fn tooltip(ui: &Ui, help: &str) {
-    if ui.is_item_hovered_with_flags(ItemHoveredFlags::DELAY_NORMAL)
-        && !ui.is_item_active()
-        && !help.is_empty()
-    {
-        beside(ui, help, [1.0; 4]);
+    let flags = ItemHoveredFlags::DELAY_NORMAL | ItemHoveredFlags::ALLOW_WHEN_DISABLED;
+    if ui.is_item_hovered_with_flags(flags) && !ui.is_item_active() && !help.is_empty() {
+        beside(ui, help, theme::TEXT);
     }
 }
 
 /// Draws a text beside the window of the last item, so that it covers no control. If there is no room at either side,
 /// it stands below the item.
-pub(super) fn beside(ui: &Ui, text: &str, color: [f32; 4]) {
+pub(super) fn beside(ui: &Ui, text: &str, color: Color) {
     let lines = wrapped(text, |line| ui.calc_text_size(line)[0] <= TOOLTIP_WIDTH);
     let line_height = ui.text_line_height();
     let width =
-        lines.iter().map(|line| ui.calc_text_size(line)[0]).fold(0.0, f32::max) + 2.0 * TOOLTIP_MARGIN;
-    let height = lines.len() as f32 * line_height + 2.0 * TOOLTIP_MARGIN;
+        lines.iter().map(|line| ui.calc_text_size(line)[0]).fold(0.0, f32::max) + 2.0 * TOOLTIP_PADDING;
+    let height = lines.len() as f32 * line_height + 2.0 * TOOLTIP_PADDING;
     let ([left, _], [extent, _]) = (ui.window_pos(), ui.window_size());
     let [display_width, display_height] = ui.io().display_size;
     let (min, max) = (ui.item_rect_min(), ui.item_rect_max());
-    let (right, before) = (left + extent + TOOLTIP_MARGIN, left - TOOLTIP_MARGIN - width);
+    let (right, before) = (left + extent + TOOLTIP_PADDING, left - TOOLTIP_PADDING - width);
     let [x, y] = if right + width <= display_width {
         [right, min[1]]
     } else if before >= 0.0 {
         [before, min[1]]
     } else {
-        [(display_width - width).clamp(0.0, min[0].max(0.0)), max[1] + TOOLTIP_MARGIN]
+        [(display_width - width).clamp(0.0, min[0].max(0.0)), max[1] + TOOLTIP_PADDING]
     };
     let y = y.min(display_height - height).max(0.0);
     let list = ui.get_foreground_draw_list();
     let corners = ([x, y], [x + width, y + height]);
-    list.add_rect(corners.0, corners.1, [0.08, 0.09, 0.11, 0.98]).filled(true).rounding(4.0).build();
-    list.add_rect(corners.0, corners.1, [0.45, 0.47, 0.50, 1.0]).rounding(4.0).build();
+    let rounding = 0.5 * TOOLTIP_PADDING;
+    list.add_rect(corners.0, corners.1, theme::OVER).filled(true).rounding(rounding).build();
+    list.add_rect(corners.0, corners.1, theme::EDGE).rounding(rounding).build();
     for (number, line) in lines.iter().enumerate() {
-        let y = y + TOOLTIP_MARGIN + number as f32 * line_height;
-        list.add_text([x + TOOLTIP_MARGIN, y], color, line);
+        let y = y + TOOLTIP_PADDING + number as f32 * line_height;
+        list.add_text([x + TOOLTIP_PADDING, y], color, line);
     }
 }
 
@@ -126,12 +119,36 @@ pub(super) fn note_item(ui: &Ui, name: &'static str, layout: &mut Layout) {
     note(ui, name, min, [max[0] - min[0], max[1] - min[1]], layout);
 }
 
+/// A row of items that goes on below where there is no room at the right.
+#[derive(Default)]
+pub(super) struct Row {
+    has_items: bool,
+}
+
+impl Row {
+    /// Prepares for the next item, which has this width and this distance from the last one.
+    pub(super) fn next(&mut self, ui: &Ui, width: f32, gap: f32) {
+        if std::mem::replace(&mut self.has_items, true) {
+            ui.same_line_with_spacing(0.0, gap);
+            if ui.content_region_avail()[0] < width {
+                ui.new_line();
+            }
+        }
+    }
+}
+
 /// Draws a button. Returns whether it is pressed.
 pub(super) fn button(ui: &Ui, label: &'static str, help: &str, layout: &mut Layout) -> bool {
     let pressed = ui.button(label);
     note_item(ui, label, layout);
     tooltip(ui, help);
     pressed
+}
+
+/// Draws a button that shows whether what it stands for is on. Returns whether it is pressed.
+pub(super) fn toggle(ui: &Ui, label: &'static str, is_on: bool, help: &str, layout: &mut Layout) -> bool {
+    let _on = is_on.then(|| theme::on(ui));
+    button(ui, label, help, layout)
 }
 
 /// Draws a box to tick. Returns whether it changes.
@@ -169,8 +186,11 @@ pub(super) fn section(
 ) {
     let was_open = folds.get(name).copied().unwrap_or(open_at_first);
     let flags = if was_open { TreeNodeFlags::DEFAULT_OPEN } else { TreeNodeFlags::empty() };
+    let flat = theme::flat(ui);
     let open = ui.collapsing_header(name, flags);
-    let top = ui.item_rect_min()[1];
+    drop(flat);
+    let ([left, top], [right, _]) = (ui.item_rect_min(), ui.item_rect_max());
+    ui.get_window_draw_list().add_line([left, top], [right, top], theme::EDGE).build();
     note_item(ui, name, layout);
     if open {
         content(layout);
@@ -185,9 +205,6 @@ pub(super) fn section(
     }
 }
 
-/// The largest width of a path in a list, in points.
-pub(super) const LONGEST: f32 = 420.0;
-
 /// A path, or as much of its end as fits in this width: the end says more than the start.
 pub(super) fn from_end(ui: &Ui, path: &str, width: f32) -> String {
     let fits = |text: &String| ui.calc_text_size(text)[0] <= width;
@@ -195,11 +212,6 @@ pub(super) fn from_end(ui: &Ui, path: &str, width: f32) -> String {
     let shortened = starts.map(|at| format!("...{}", &path[at..]));
     let mut texts = std::iter::once(path.to_owned()).chain(shortened);
     texts.find(fits).unwrap_or_default()
-}
-
-/// Makes the next button look pressed.
-pub(super) fn pressed(ui: &Ui) -> imgui::ColorStackToken<'_> {
-    ui.push_style_color(StyleColor::Button, ui.style_color(StyleColor::ButtonActive))
 }
 
 /// Draws a drop-down list as wide as the panel.
@@ -212,6 +224,18 @@ pub(super) fn combo(
     choices: impl FnOnce(&mut Layout),
 ) {
     ui.set_next_item_width(-1.0);
+    list(ui, name, shown, help, layout, choices);
+}
+
+/// Draws a drop-down list of the width that was set.
+pub(super) fn list(
+    ui: &Ui,
+    name: &'static str,
+    shown: &str,
+    help: &str,
+    layout: &mut Layout,
+    choices: impl FnOnce(&mut Layout),
+) {
     match ui.begin_combo(format!("##{name}"), shown) {
         Some(_open) => choices(layout),
         // While the list is open, the last item is an entry of it and not the list.
@@ -238,13 +262,10 @@ pub(super) fn edge(
     side: Side,
     layout: &mut Layout,
 ) -> Option<f32> {
-    let _bare = (
-        ui.push_style_var(StyleVar::WindowPadding([0.0; 2])),
-        ui.push_style_var(StyleVar::WindowMinSize([1.0; 2])),
-    );
+    let _unseen = theme::unseen(ui);
     let (position, size, cursor, to_edge) = match side {
-        Side::Right(length) => ([x - EDGE, y], [EDGE, length], MouseCursor::ResizeEW, 0.5 * EDGE),
-        Side::Top(length) => ([x, y], [length, EDGE], MouseCursor::ResizeNS, -0.5 * EDGE),
+        Side::Right(length) => ([x - GRIP, y], [GRIP, length], MouseCursor::ResizeEW, 0.5 * GRIP),
+        Side::Top(length) => ([x, y], [length, GRIP], MouseCursor::ResizeNS, -0.5 * GRIP),
     };
     let mut place = None;
     ui.window(format!("##{name}"))

@@ -3,6 +3,7 @@
 use super::super::area::Area;
 use super::super::focus::Focus;
 use super::super::graphics::{Answer, Wanted};
+use super::super::guide::Guide;
 use super::super::lesson::Lesson;
 use super::super::loader::{Loader, Ready};
 use super::super::message::{Kind, Offer};
@@ -110,7 +111,6 @@ impl OpenWindow {
         self.panel.watch_job();
         let camera = self.panel.settings.estimator.camera;
         let action = self.panel.draw(ui, &status, room, area).or_else(|| keys::pressed(ui));
-        keys::help(ui, &mut self.panel.keys);
         self.navigate.take_input(ui, &mut self.panel.settings.estimator, area);
         self.focus.take_input(ui, &mut self.panel, area);
         self.focus.follow(&camera, &mut self.panel);
@@ -291,6 +291,10 @@ impl OpenWindow {
             }
             Action::Autofocus => {
                 self.focus.send_to(self.panel.settings.estimator.size.map(|extent| 0.5 * extent as f32));
+            }
+            Action::PickFocus => {
+                let guide = &mut self.panel.guide;
+                *guide = (*guide != Some(Guide::Focus)).then_some(Guide::Focus);
             }
             Action::Reset => self.panel.reset(),
             Action::ResetCamera => self.move_camera(Panel::reset_camera),

@@ -14,6 +14,7 @@ use super::memory;
 use super::navigate::Navigate;
 use super::panel::{Panel, State};
 use super::telemetry::{self, Telemetry};
+use super::theme;
 use crate::error::{Error, Result};
 use crate::scene::MAX_EXTENT;
 use crate::vulkan::Instance;
@@ -312,7 +313,7 @@ impl OpenWindow {
             occluded: false,
         };
         open.load_fonts();
-        open.style();
+        theme::apply(open.imgui.style_mut());
         Ok(open)
     }
 
@@ -337,28 +338,7 @@ impl OpenWindow {
 
     fn load_fonts(&mut self) {
         let scale = self.platform.hidpi_factor() as f32;
-        let fonts = self.imgui.fonts();
-        fonts.clear();
-        fonts.add_font(&[imgui::FontSource::TtfData {
-            data: epaint_default_fonts::UBUNTU_LIGHT,
-            size_pixels: 16.0 * scale,
-            config: None,
-        }]);
+        theme::load_letters(self.imgui.fonts(), scale);
         self.imgui.io_mut().font_global_scale = scale.recip();
-    }
-
-    fn style(&mut self) {
-        let style = self.imgui.style_mut();
-        style.use_dark_colors();
-        style.window_rounding = 6.0;
-        style.frame_rounding = 4.0;
-        style.grab_rounding = 4.0;
-        style.window_padding = [12.0, 10.0];
-        style.frame_padding = [8.0, 4.0];
-        style.item_spacing = [8.0, 6.0];
-        style.colors[imgui::StyleColor::WindowBg as usize] = [0.08, 0.09, 0.11, 0.88];
-        style.colors[imgui::StyleColor::TitleBg as usize] = [0.12, 0.19, 0.29, 0.95];
-        style.colors[imgui::StyleColor::PopupBg as usize] = [0.08, 0.09, 0.11, 0.98];
-        style.colors[imgui::StyleColor::PlotHistogram as usize] = [0.20, 0.45, 0.80, 1.0];
     }
 }

@@ -86,8 +86,8 @@ pub(super) static APERTURE: &[Setting] = &[
         access: Access::Single(field!(estimator.aperture.cats_eye), CATS_EYES, Unit::Plain),
         row: Some(Row {
             part: Part::Aperture,
-            label: "Rim",
-            help: "The distance of the front rim from the centre of the lens, as seen from a corner of the picture, in diameters.",
+            label: "Distance of the front rim",
+            help: "How far the front rim of the lens seems to have moved aside, as seen from a corner of the picture, in diameters of the lens. The farther, the narrower are the cat's eyes.",
             shown: has_rim,
             widget: Widget::Slider(Slider { range: |_| [0.01, 1.0], decimals: Some(2), ..EVEN }),
         }),

@@ -101,7 +101,7 @@ pub(super) static LENS: &[Setting] = &[
         row: Some(Row {
             part: Part::Top,
             label: "Lens diameter",
-            help: "The diameter of the lens, or of the pupil of an eye, in scene units. A wide lens blurs more and needs more points per pixel. 0 is a pinhole: everything is sharp.",
+            help: "The diameter of the lens, or of the pupil of an eye, in units of the scene and in real ones. A wide lens blurs more and needs more points per pixel. 0 is a pinhole: everything is sharp.",
             shown: has_lens,
             widget: Widget::Slider(Slider { range: lens_diameters, ..EVEN }),
         }),
@@ -143,7 +143,7 @@ pub(super) static LENS: &[Setting] = &[
         row: Some(Row {
             part: Part::Top,
             label: "Focal plane distance",
-            help: "The distance of the plane in which everything is sharp, in scene units.",
+            help: "The distance of the plane in which everything is sharp. Right-click something in the picture to put it there.",
             shown: has_lens,
             widget: Widget::Slider(Slider { range: focal_distances, ..LOGARITHMIC }),
         }),

@@ -91,7 +91,7 @@ pub(super) static VIEW: &[Setting] = &[
                 set: |settings, name| settings.show(named(&Overlay::NAMES, name)),
             },
             || {
-                let picture = Choice { name: NONE, label: "Picture", help: "The picture alone." };
+                let picture = Choice { name: NONE, label: "Picture alone", help: "The picture, and nothing on top of it." };
                 let overlays = OVERLAYS.iter();
                 let overlays = overlays.map(|of| Choice { name: of.name, label: of.label, help: of.help });
                 [picture].into_iter().chain(overlays).collect()
@@ -110,7 +110,7 @@ pub(super) static VIEW: &[Setting] = &[
         key: view("tolerance"),
         access: Access::Tolerance(field!(view.tolerance)),
         row: row(
-            Part::View,
+            Part::Sharp,
             "Tolerance",
             "The largest circle of confusion that counts as sharp. On the film, 0.03 mm is usual for 35 mm cameras, and what is sharp does not depend on the size of the window. In pixels, it does.",
             Widget::Length,

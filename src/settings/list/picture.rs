@@ -34,8 +34,8 @@ pub(super) static PICTURE: &[Setting] = &[
         access: Access::Whole(field!(samples), [1, MAX_SAMPLES]),
         row: row(
             Part::Points,
-            "Anti-aliasing points per pixel",
-            "The number of rays that are averaged in each pixel: more rays give less noise. If you raise it, the picture continues with the rays that it has.",
+            "Points per pixel",
+            "The number of rays that are averaged in each pixel, each through another point of the pixel and of the lens: more points give less noise and smoother edges (anti-aliasing). If you raise it, the picture continues with the rays that it has.",
             Widget::Slider(Slider {
                 range: |initial| [1.0, MAX_SLIDER_SAMPLES.max(initial.samples) as f32],
                 ..LOGARITHMIC
@@ -58,8 +58,8 @@ pub(super) static SAMPLING: &[Setting] = &[
         access: Access::Single(field!(estimator.jitter), JITTERS, Unit::Pixels),
         row: row(
             Part::Sampling,
-            "One centre ray per pixel",
-            "All rays of a pixel pass through one point of the focal plane. Edges in that plane become jagged, and blur stays.",
+            "No anti-aliasing",
+            "All rays of a pixel go through the same point of the focal plane, that of the ray through the pixel's centre. Edges in that plane become jagged, and blur stays as it is.",
             Widget::BoxOf { ticked: 0.0, plain: DEFAULT_JITTER },
         ),
     },
