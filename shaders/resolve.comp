@@ -69,6 +69,25 @@ vec4 nearest_sampled(const ivec2 cell) {
     return nearest;
 }
 
+// The luminance of a neighbour of a cell as it is shown, or that of the cell itself where the neighbour has no sample.
+float encoded_luminance(const ivec2 cell, const vec4 film) {
+    vec4 texel = film_at(cell);
+    return luminance(srgb_encode(push.exposure * (texel.w > 0.0 ? texel : film).rgb));
+}
+
+// By how much the encoded luminance changes from cell to cell: the length of the gradient by Sobel's operator.
+float contrast_at(const ivec2 cell, const vec4 film) {
+    vec2 gradient = vec2(0.0);
+    for (int along = -1; along <= 1; ++along) {
+        float weight = along == 0 ? 0.25 : 0.125;
+        gradient.x += weight * (encoded_luminance(cell + ivec2(1, along), film)
+                                - encoded_luminance(cell + ivec2(-1, along), film));
+        gradient.y += weight * (encoded_luminance(cell + ivec2(along, 1), film)
+                                - encoded_luminance(cell + ivec2(along, -1), film));
+    }
+    return length(gradient);
+}
+
 void main() {
     uvec2 cell = gl_GlobalInvocationID.xy;
     uvec2 first = cell * push.preview_stride;
@@ -85,7 +104,9 @@ void main() {
     if (HAS_OVERLAY == 1u) {
         ivec2 site = min(site_of(ivec2(cell)), ivec2(push.extent) - 1);
         float error = HAS_MOMENTS == 1u ? relative_error(film, imageLoad(film_moments, site).r) : 0.0;
-        shown = overlay_color(push.overlay, vec2(site), shown, film.w, error, imageLoad(surface_image, site));
+        float contrast = push.overlay.kind == OVERLAY_FOCUS_PEAKING ? contrast_at(ivec2(cell), film) : 0.0;
+        vec4 surface = imageLoad(surface_image, site);
+        shown = overlay_color(push.overlay, vec2(site), shown, contrast, film.w, error, surface);
     }
     vec4 color = vec4(srgb_encode(shown), 1.0);
     color = push.blue_first == 1u ? color.bgra : color;

@@ -7,6 +7,8 @@
 
 // How far from the focal plane a point may lie and still count as in it, relative to the focal distance.
 const float SLICE_HALF_WIDTH = 0.006;
+// Where the contrast of the encoded picture is at least this, from pixel to pixel, there is an edge.
+const float EDGE_CONTRAST = 0.05;
 
 struct OverlayScale {
     uint kind;
@@ -34,10 +36,11 @@ vec3 heat(const float share) {
     return clamp(vec3(3.0 * share, 3.0 * share - 1.0, 3.0 * share - 2.0), 0.0, 1.0);
 }
 
-// surface is the normal at the point that the pixel's centre sees, in the camera's frame, and in w the depth.
+// surface is the normal at the point that the pixel's centre sees, in the camera's frame, and in w the depth. contrast is
+// by how much the encoded luminance of the picture changes from pixel to pixel; only focus peaking reads it.
 vec3 overlay_color(
-    const OverlayScale scale, const vec2 pixel, const vec3 picture, const float count, const float error,
-    const vec4 surface
+    const OverlayScale scale, const vec2 pixel, const vec3 picture, const float contrast, const float count,
+    const float error, const vec4 surface
 ) {
     float depth = surface.w;
     switch (scale.kind) {
@@ -52,13 +55,15 @@ vec3 overlay_color(
     case OVERLAY_CIRCLE_OF_CONFUSION:
         float share = clamp(circle_of_confusion(scale, pixel, depth) / scale.full_scale, -1.0, 1.0);
         return mix(vec3(1.0), share < 0.0 ? IN_FRONT : BEHIND, abs(share));
-    case OVERLAY_FOCUS_PEAKING:
+    case OVERLAY_FOCUS_PEAKING: // edges as cameras mark them, and a tint where something sharp has none
         bool sharp = abs(circle_of_confusion(scale, pixel, depth)) <= scale.full_scale;
-        return sharp ? mix(picture, MARK, 0.6) : picture;
-    case OVERLAY_FOCAL_PLANE:
+        float mark = contrast >= EDGE_CONTRAST ? 0.9 : 0.12;
+        return sharp ? mix(picture, MARK, mark) : picture;
+    case OVERLAY_FOCAL_PLANE: // a sheet that covers what is behind it, and a line where it cuts surfaces
         float inverse = scale.inverse_focal_distance + focus_of_tilt(scale, pixel);
-        bool in_plane = abs(depth * inverse - 1.0) <= SLICE_HALF_WIDTH;
-        return in_plane ? mix(picture, SLICE, 0.75) : picture;
+        float behind = depth * inverse - 1.0;
+        float sheet = abs(behind) <= SLICE_HALF_WIDTH ? 0.75 : behind > 0.0 ? 0.2 : 0.0;
+        return mix(picture, SLICE, sheet);
     default:
         return picture;
     }

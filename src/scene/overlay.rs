@@ -35,8 +35,8 @@ pub struct Entry {
     /// The linear colours of its legend, at equal distances from left to right.
     pub colors: &'static [[f32; 3]],
     /// The labels below the legend on the left, in the middle and on the right, given the end of the scale and the
-    /// focal distance.
-    pub labels: fn(f32, f32) -> [String; 3],
+    /// focal distance as text.
+    pub labels: fn(f32, &str) -> [String; 3],
 }
 
 /// The data that an overlay is computed from.
@@ -69,7 +69,7 @@ pub const OVERLAYS: [Entry; 7] = [
         overlay: Overlay::FocusPeaking,
         name: "focus-peaking",
         label: "Focus peaking",
-        help: "The picture, with marks on everything sharp: what is blurred over less than the tolerance.",
+        help: "The picture, with marks on the edges of everything sharp, and a tint between them: what is blurred over less than the tolerance.",
         source: Source::Surface,
         full_scale: FullScale::Tolerance,
         colors: &[MARK; 2],
@@ -79,11 +79,11 @@ pub const OVERLAYS: [Entry; 7] = [
         overlay: Overlay::FocalPlane,
         name: "focal-plane",
         label: "Focal plane",
-        help: "The picture, with marks where the focal plane cuts surfaces.",
+        help: "The picture behind the focal plane, which is shown as a translucent sheet. What is in front of it sticks out, and a line marks where it cuts surfaces.",
         source: Source::Surface,
         full_scale: FullScale::Number(1.0),
         colors: &[SLICE; 2],
-        labels: |_, distance| labels(&format!("{} from the lens", rounded(distance)), "", ""),
+        labels: |_, distance| labels(&format!("at a depth of {distance}"), "", ""),
     },
     Entry {
         overlay: Overlay::CircleOfConfusion,
@@ -104,7 +104,7 @@ pub const OVERLAYS: [Entry; 7] = [
         full_scale: FullScale::Number(1.0),
         // The labels are at equal steps of F / (F + depth).
         colors: &[[1.0; 3], [0.75; 3], [0.5; 3], [0.25; 3], [0.0; 3]],
-        labels: |_, distance| labels("lens", &rounded(distance), "far away"),
+        labels: |_, distance| labels("lens", distance, "far away"),
     },
     Entry {
         overlay: Overlay::Normals,
@@ -144,11 +144,6 @@ pub const OVERLAYS: [Entry; 7] = [
         labels: |full, _| labels("0", "", &format!("{:.0}% or more", 100.0 * full)),
     },
 ];
-
-/// A distance without the digits that come of its storage as an f32.
-fn rounded(distance: f32) -> String {
-    ((1e4 * f64::from(distance)).round() / 1e4).to_string()
-}
 
 fn labels(left: &str, middle: &str, right: &str) -> [String; 3] {
     [left, middle, right].map(str::to_owned)

@@ -3,7 +3,7 @@
 use crate::app::area::Area;
 use crate::app::over_picture::{Over, Place};
 use crate::app::theme::{LEGEND_BAR, LEGEND_WIDTH};
-use crate::settings::{Settings, to_srgb};
+use crate::settings::{Settings, rounded, to_srgb};
 use imgui::Ui;
 
 /// Draws the legend at the lower right of the picture.
@@ -12,7 +12,8 @@ pub(super) fn legend(ui: &Ui, settings: &Settings, area: &Area) {
         return;
     };
     let entry = overlay.entry();
-    let labels = (entry.labels)(settings.overlay_scale(overlay), settings.estimator.lens.focal_distance);
+    let focal_distance = rounded(settings.estimator.lens.focal_distance.into(), 4);
+    let labels = (entry.labels)(settings.overlay_scale(overlay), &focal_distance);
     // Where the labels need more room than the colours, the legend becomes wider.
     let widths = labels.each_ref().map(|label| ui.calc_text_size(label)[0]);
     let apart = 2.0 * ui.calc_text_size(" ")[0];

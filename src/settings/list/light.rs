@@ -91,7 +91,11 @@ pub(super) static VIEW: &[Setting] = &[
                 set: |settings, name| settings.show(named(&Overlay::NAMES, name)),
             },
             || {
-                let picture = Choice { name: NONE, label: "Picture alone", help: "The picture, and nothing on top of it." };
+                let picture = Choice {
+                    name: NONE,
+                    label: "Picture alone",
+                    help: "The picture, and nothing on top of it.",
+                };
                 let overlays = OVERLAYS.iter();
                 let overlays = overlays.map(|of| Choice { name: of.name, label: of.label, help: of.help });
                 [picture].into_iter().chain(overlays).collect()
