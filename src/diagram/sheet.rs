@@ -79,11 +79,11 @@ impl Role {
     /// Red, green and blue in sRGB, and the opacity.
     pub fn color(self) -> [f32; 4] {
         match self {
-            Self::Paper => [0.045, 0.05, 0.065, 1.0],
-            Self::Frame => [0.30, 0.33, 0.38, 1.0],
-            Self::Faint => [0.62, 0.65, 0.71, 1.0],
-            Self::Text => [0.86, 0.88, 0.92, 1.0],
-            Self::Film => [0.80, 0.82, 0.88, 1.0],
+            Self::Paper => [0.05, 0.05, 0.05, 1.0],
+            Self::Frame => [0.33, 0.33, 0.33, 1.0],
+            Self::Faint => [0.65, 0.65, 0.65, 1.0],
+            Self::Text => [0.88, 0.88, 0.88, 1.0],
+            Self::Film => [0.82, 0.82, 0.82, 1.0],
             Self::Glass => [0.45, 0.75, 1.0, 1.0],
             Self::GlassInside => [0.45, 0.75, 1.0, 0.20],
             Self::Focus => [1.0, 0.66, 0.15, 1.0],
@@ -106,7 +106,7 @@ impl Role {
             Self::Blur => [1.0, 0.42, 0.47, 1.0],
             Self::BlurInside(light) => [1.0, 0.36, 0.42, 0.60 * light.clamp(0.0, 1.0)],
             Self::Pixel => [1.0, 1.0, 1.0, 0.16],
-            Self::Grid => [0.45, 0.48, 0.54, 0.55],
+            Self::Grid => [0.48, 0.48, 0.48, 0.55],
             Self::Shown(color) => {
                 let [red, green, blue] = color.map(|level| f32::from(level) / 255.0);
                 [red, green, blue, 1.0]

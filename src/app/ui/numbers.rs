@@ -1,6 +1,6 @@
 //! The part of the panel that shows numbers: what is sharp, and what is under the pointer.
 
-use super::widgets::tooltip;
+use super::widgets::{from_end, tooltip};
 use crate::app::panel::Panel;
 use crate::app::theme;
 use crate::app::words::{self, length, with_digits};
@@ -75,11 +75,13 @@ impl Panel {
             return;
         };
         let [blur, side] = words::blur(&self.settings, surface.point);
-        let place = format!("{} at {}", surface.material, length(surface.depth));
+        let place = format!(" at {}", length(surface.depth));
         let whole = if side.is_empty() { place.clone() } else { format!("{place}, {side}") };
-        let room = ui.content_region_avail()[0];
-        let fits = |text: &str| ui.calc_text_size(text)[0] <= room;
-        ui.text(if fits(&whole) { &whole } else { &place });
+        // A long name is shortened, so that the side is said. A narrow panel has no room for that.
+        let left_by = |text: &str| ui.content_region_avail()[0] - ui.calc_text_size(text)[0];
+        let named = |rest: &str| from_end(ui, &surface.material, left_by(rest)) + rest;
+        let name_needs = ui.calc_text_size(&surface.material)[0].min(ui.calc_text_size("...name")[0]);
+        ui.text(named(if left_by(&whole) >= name_needs { &whole } else { &place }));
         ui.text(&blur);
         tooltip(
             ui,
