@@ -65,10 +65,6 @@ save optics.png
 press o
 
 click Lens
-# The stops are a notch of the wheel further down in the section.
-point 160 600
-xdotool click 5
-settle
 click f/2.8
 press c
 click f/32

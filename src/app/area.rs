@@ -22,6 +22,13 @@ impl Area {
         Self { corner: [left, 0], pixels: [window[0] - left, window[1] - below], scale }
     }
 
+    /// All of the window.
+    pub(super) fn window(ui: &Ui) -> Self {
+        let scale = ui.io().display_framebuffer_scale[0];
+        let pixels = ui.io().display_size.map(|points| (points * scale).round() as u32);
+        Self { corner: [0; 2], pixels, scale }
+    }
+
     /// The middle of this area, as large as it can be with the proportions of a picture of this size.
     pub(super) fn with_proportions(&self, size: [u32; 2]) -> Self {
         let [width, height] = size.map(f64::from);

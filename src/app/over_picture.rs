@@ -71,7 +71,6 @@ impl Over {
             | WindowFlags::NO_SAVED_SETTINGS
             | WindowFlags::NO_FOCUS_ON_APPEARING;
         flags.set(WindowFlags::NO_SCROLLBAR, !self.scrolls);
-        flags.set(WindowFlags::HORIZONTAL_SCROLLBAR, self.scrolls);
         flags.set(WindowFlags::NO_INPUTS, !self.takes_pointer);
         let _style = theme::over(ui, self.ground);
         ui.window(&self.name)

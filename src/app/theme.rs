@@ -23,6 +23,8 @@ const NOTHING: Color = [0.0; 4];
 pub(super) const GROUND: Color = grey(0.145);
 /// Windows over the picture, lists and tooltips. The picture shines through a little, but no text gets lost on it.
 pub(super) const OVER: Color = faded(grey(0.10), 0.94);
+/// Lists over controls, whose texts must not shine through.
+pub(super) const OVER_CONTROLS: Color = faded(OVER, 1.0);
 /// Buttons and fields: at rest, under the pointer, and pressed.
 const RAISED: Color = grey(0.24);
 const HOVERED: Color = grey(0.30);
@@ -147,7 +149,8 @@ fn color(of: StyleColor) -> Color {
     match of {
         Of::Text => TEXT,
         Of::TextDisabled => QUIET,
-        Of::WindowBg | Of::TitleBg | Of::TitleBgActive | Of::TitleBgCollapsed | Of::PopupBg => OVER,
+        Of::WindowBg | Of::TitleBg | Of::TitleBgActive | Of::TitleBgCollapsed => OVER,
+        Of::PopupBg => OVER_CONTROLS,
         Of::ChildBg
         | Of::BorderShadow
         | Of::MenuBarBg

@@ -36,8 +36,8 @@ const LIST: [(&str, &str); 25] = [
     ("?, F1", "this list"),
 ];
 
-/// Shows the list, while it is open.
-pub(super) fn keys(ui: &Ui, open: &mut bool, area: &Area, layout: &mut Layout) {
+/// Shows the list over the picture, while it is open, or over the whole window if the picture has no room for it.
+pub(super) fn keys(ui: &Ui, open: &mut bool, [picture, window]: [&Area; 2], layout: &mut Layout) {
     if !*open {
         return;
     }
@@ -46,20 +46,22 @@ pub(super) fn keys(ui: &Ui, open: &mut bool, area: &Area, layout: &mut Layout) {
     };
     let column = widest(LIST.map(|(keys, _)| keys)) + COLUMN_GAP;
     let width = column + widest(LIST.map(|(_, meaning)| meaning));
-    Over { scrolls: true, ..Over::new("##keys", Place::Middle, [width, 0.0]) }.draw(ui, area, || {
-        let left = ui.cursor_pos()[0];
-        ui.align_text_to_frame_padding();
-        ui.text("What the mouse and the keys do");
-        ui.same_line_with_pos(left + width - ICON);
-        let plain = theme::plain(ui);
-        let help = "Closes the list.";
-        let close = IconButton { icon: Icon::Close, name: "Close keys", help, is_on: false, can: true };
-        *open = !close.draw(ui, layout);
-        drop(plain);
-        for (keys, meaning) in LIST {
-            ui.text_colored(theme::ACCENT, keys);
-            ui.same_line_with_pos(left + column);
-            ui.text(meaning);
-        }
-    });
+    let area = if Over::room(picture) < width { window } else { picture };
+    Over { scrolls: true, ground: theme::OVER_CONTROLS, ..Over::new("##keys", Place::Middle, [width, 0.0]) }
+        .draw(ui, area, || {
+            let left = ui.cursor_pos()[0];
+            ui.align_text_to_frame_padding();
+            ui.text("What the mouse and the keys do");
+            ui.same_line_with_pos(ui.window_content_region_max()[0] - ICON);
+            let plain = theme::plain(ui);
+            let help = "Closes the list.";
+            let close = IconButton { icon: Icon::Close, name: "Close keys", help, is_on: false, can: true };
+            *open = !close.draw(ui, layout);
+            drop(plain);
+            for (keys, meaning) in LIST {
+                ui.text_colored(theme::ACCENT, keys);
+                ui.same_line_with_pos(left + column);
+                ui.text_wrapped(meaning);
+            }
+        });
 }

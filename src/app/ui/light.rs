@@ -9,10 +9,10 @@ impl Panel {
     pub(super) fn light(&mut self, ui: &Ui, layout: &mut Layout) {
         self.rows(ui, Part::Light, layout);
         if let Some([of_lens, at_iso_100]) = exposure_values(&self.settings) {
-            ui.text(format!("exposure value {of_lens:.1}, at ISO 100 {at_iso_100:.1}"));
+            ui.text(format!("exposure value {of_lens:.1} ({at_iso_100:.1} at ISO 100)"));
             tooltip(
                 ui,
-                "log2(N^2 / t), where N is the f-number and t the shutter time in seconds. The second number is for the same brightness with film of ISO 100: full sun is about 15, a lit room about 6.",
+                "log2(N^2 / t), where N is the f-number and t the shutter time in seconds. The number at ISO 100 is for the same brightness with film of ISO 100: full sun is about 15, a lit room about 6.",
             );
         }
     }

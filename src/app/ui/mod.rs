@@ -171,7 +171,7 @@ impl Panel {
             self.teach(ui, area, &mut layout);
         }
         self.guide = self.guide.and_then(|guide| guide.draw(ui, area));
-        keys::keys(ui, &mut self.keys, room, &mut layout);
+        keys::keys(ui, &mut self.keys, [room, &Area::window(ui)], &mut layout);
         action = self.messages.draw(ui, area, &mut layout).map(Action::Accept).or(action);
         if layout != self.layout {
             for (name, [x, y, width, height]) in &layout {

@@ -47,7 +47,10 @@ impl Panel {
                 ui,
                 "How far the depth of field reaches from the focal plane to the camera and to the horizon.",
             );
-            ui.text(format!("{seen}, hyperfocal at {}", length(self.settings.hyperfocal_distance())));
+            let hyperfocal = format!("hyperfocal at {}", length(self.settings.hyperfocal_distance()));
+            let both = format!("{seen}, {hyperfocal}");
+            let fits = ui.calc_text_size(&both)[0] <= ui.content_region_avail()[0];
+            ui.text(if fits { both } else { hyperfocal });
             tooltip(
                 ui,
                 &format!(

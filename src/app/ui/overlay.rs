@@ -17,7 +17,8 @@ pub(super) fn legend(ui: &Ui, settings: &Settings, area: &Area) {
     // Where the labels need more room than the colours, the legend becomes wider.
     let widths = labels.each_ref().map(|label| ui.calc_text_size(label)[0]);
     let apart = 2.0 * ui.calc_text_size(" ")[0];
-    let needed = 2.0 * (widths[0].max(widths[2]) + apart) + widths[1];
+    let [left, middle, right] = widths;
+    let needed = if middle > 0.0 { middle + 2.0 * (left.max(right) + apart) } else { left + right + apart };
     let size = [LEGEND_WIDTH.max(needed).max(ui.calc_text_size(entry.label)[0]), 0.0];
     let over = Over { takes_pointer: false, ..Over::new("##legend", Place::LowerRight, size) };
     over.draw(ui, area, || {

@@ -2,7 +2,7 @@
 
 pub(super) use crate::app::panel::Layout;
 
-use crate::app::theme::{self, Color, GRIP, TOOLTIP_PADDING, TOOLTIP_WIDTH};
+use crate::app::theme::{self, Color, GRIP, SPACING, TOOLTIP_PADDING, TOOLTIP_WIDTH};
 use imgui::{Condition, ItemHoveredFlags, MouseButton, MouseCursor, TreeNodeFlags, Ui, WindowFlags};
 use std::collections::BTreeMap;
 
@@ -42,8 +42,13 @@ pub(super) fn heading(ui: &Ui, name: &str, number: &str, help: &str) -> Heading 
     if number.is_empty() {
         return Heading { resets, types: false, hovered: hovers_name };
     }
-    let [width, _] = ui.calc_text_size(number);
-    ui.same_line_with_pos(ui.window_content_region_max()[0] - width);
+    // A narrow panel has no room for the same length in another unit.
+    let right = ui.window_content_region_max()[0];
+    let taken = ui.item_rect_max()[0] - ui.window_pos()[0] + SPACING[0];
+    let fits = |number: &str| taken + ui.calc_text_size(number)[0] <= right;
+    let short = number.split(" = ").next().unwrap_or(number);
+    let number = if fits(number) { number } else { short };
+    ui.same_line_with_pos(right - ui.calc_text_size(number)[0]);
     ui.text(number);
     tooltip(ui, "Click it to type another value.");
     let hovers_number = points_at_item(ui);
