@@ -13,7 +13,7 @@ commands=$(awk '
     /^```sh$/ { block = ""; inside = 1; next }
     /^```$/ && inside { inside = 0; if (block ~ /docs\/images/) printf "%s", block; next }
     inside { block = block $0 "\n" }
-    /^\*`thinlens .*docs\/images.*`\*$/ { gsub(/^\*`|`\*$/, ""); print }
+    /^\*?`(thinlens|convert) .*docs\/images.*`\*$/ { gsub(/^\*?`|`\*$/, ""); print }
 ' docs/optics.md)
 bash -euxc "$commands"
 
