@@ -641,6 +641,91 @@ fn no_text_covers_another() {
     }
 }
 
+/// Catches a side that is told from the depths alone, or from the focal plane on the axis: a tilted lens can be in focus
+/// behind itself in some directions, and there everything is too near. Light of a point that is too near meets behind the
+/// film, or nowhere.
+#[test]
+fn the_side_of_a_point_says_where_its_light_meets() {
+    let gpu = Gpu::new();
+    let mut settings = small("version-4");
+    let mut seen = [0; 3];
+    for (degrees, position) in
+        [(0.0, [32.5, 24.5]), (8.0, [32.5, 2.5]), (8.0, [32.5, 45.5]), (40.0, [32.5, 4.5])]
+            .into_iter()
+            .flat_map(|(degrees, position)| [(degrees, position), (-degrees, position)])
+    {
+        settings.estimator.lens.tilt_degrees = degrees;
+        let diagram = drawn(&gpu, &settings, position).expect("it is drawn");
+        let (depth, _) = diagram.focus.expect("a lens");
+        for at in [0.3, 0.8, 1.25, 3.0].map(|share| share * depth.abs()).into_iter().chain([4.0, 10.6, 30.0])
+        {
+            let moved = diagram.with_point_at(at);
+            let meets_before = moved.image.crossing.is_some_and(|way| way < moved.image.film_distance);
+            let side = if meets_before { Side::Behind } else { Side::InFront };
+            if moved.side() != Some(Side::InFocus) {
+                assert_eq!(
+                    moved.side(),
+                    Some(side),
+                    "{at} at {position:?}, {degrees} degrees, focus at {depth}"
+                );
+            }
+            let kind = if depth < 0.0 { 0 } else { 1 + usize::from(side == Side::Behind) };
+            seen[kind] += 1;
+        }
+    }
+    assert!(seen.iter().all(|count| *count > 3), "{seen:?}");
+}
+
+/// Catches a dot over a letter, most of all in a low strip, where the points of a figure lie near one another.
+#[test]
+fn no_dot_covers_a_letter() {
+    let gpu = Gpu::new();
+    let mut settings = small("version-4");
+    let mut names = 0;
+    for (tilt, focal_distance, position) in [
+        (0.0, 10.6, [32.5, 24.5]),
+        (0.0, 10.6, [20.5, 38.5]),
+        (0.0, 3.0, [60.5, 4.5]),
+        (0.0, 40.0, [10.5, 44.5]),
+        (6.0, 10.6, [25.5, 33.5]),
+    ] {
+        let lens = &mut settings.estimator.lens;
+        (lens.tilt_degrees, lens.focal_distance) = (tilt, focal_distance);
+        let diagram = drawn(&gpu, &settings, position).expect("it is drawn");
+        let heights = (0..12_u8).map(|step| 90.0 + 30.0 * f32::from(step));
+        let sizes = heights.flat_map(|height| [640.0, 936.0, 1580.0].map(|width| [width, height]));
+        for (entry, size) in sizes.flat_map(|size| VIEWS.iter().map(move |entry| (entry, size))) {
+            let drawing = diagram::draw(&diagram, &Look { view: entry.view, size, ..LOOK });
+            let what = format!("{} at {position:?} in {size:?}", entry.name);
+            for pane in &drawing.panes {
+                let drawing = Drawing { panes: vec![pane.clone()], ..drawing.clone() };
+                for (text, [left, top, right, bottom]) in boxes(&drawing) {
+                    names += usize::from(text.len() == 1);
+                    for shape in &pane.shapes {
+                        let Shape::Dot { at: [x, y], radius, .. } = shape else { continue };
+                        let beside = (left - x).max(x - right).max(0.0);
+                        let apart = (top - y).max(y - bottom).max(0.0);
+                        assert!(beside.hypot(apart) >= *radius, "{what}: a dot at {x} {y} covers '{text}'");
+                    }
+                }
+            }
+            // Where there is room, no letter of a point is left out that the figure shows.
+            let points = [diagram.hit.map(|hit| hit.z), diagram.focus.map(|(depth, _)| depth)];
+            let all_shown = points.iter().all(|depth| depth.is_some_and(|depth| depth < diagram.reach));
+            let letters: &[&str] = match entry.view {
+                View::Layout => &["l", "q", "r", "p"],
+                View::TwoRays => &["l", "q", "r", "viewX", "viewY"],
+                View::CrossSection if all_shown => &["q", "p", "h"],
+                _ => &[],
+            };
+            let texts = texts(&drawing);
+            let missing = letters.iter().find(|letter| !texts.contains(letter));
+            assert!(size[1] < 240.0 || missing.is_none(), "{what}: no {missing:?}");
+        }
+    }
+    assert!(names > 500, "only {names} letters were seen");
+}
+
 /// Catches a figure of the book in which the two rays do not meet at p, in which a letter stands at another point, or
 /// whose distances are not those of the camera.
 #[test]
@@ -929,6 +1014,11 @@ fn the_focal_plane_is_tilted_as_the_device_focuses() {
     let far = lines(&drawing, Role::Focus)[0];
     let across = |from: usize, to: usize| (far[to][1] - far[from][1]) / (far[to][0] - far[from][0]);
     assert!(far.len() == 4 && across(1, 2).abs() < 3.0, "the focal plane stands upright: {far:?}");
+    // The rays start on the rim, which is tilted with the lens.
+    let rim = lines(&drawing, Role::Glass)[0];
+    let l = dots(&drawing, Role::Glass)[0];
+    let off = rim.iter().map(|at| (at[0] - l[0]).hypot(at[1] - l[1])).fold(f32::MAX, f32::min);
+    assert!(off < 0.2, "l is {off} beside the rim of the lens");
     let primary = lines(&drawing, Role::Primary)[0];
     let p = *dots(&drawing, Role::Focus).last().expect("p");
     assert!((primary[1][0] - p[0]).hypot(primary[1][1] - p[1]) < 0.2, "the primary ray ends beside p");

@@ -16,12 +16,20 @@ const RIM: u32 = 96;
 const OPENING_SHARE: f64 = 0.45;
 /// How far to the left and down what lies nearer to the eye is drawn in the layout.
 const NEARER: f64 = 0.32;
+/// The width of a dot.
+const DOT: f32 = 7.0;
 /// The share of the width of the figure of the circle of confusion that the film from the front takes.
 const FILM_SHARE: f32 = 0.3;
 
 /// A rectangle of the sheet in which everything has the same scale.
 struct Paper {
     pane: Pane,
+    /// The names of places, which are written when everything is drawn.
+    names: Vec<(Point, Role, &'static str)>,
+    /// How many lines of distances there are below the figure.
+    distances: u8,
+    /// Whether there is hardly room for the figure.
+    is_low: bool,
     /// What lies in the middle of the rectangle.
     middle: [f64; 2],
     /// The length on the sheet of a scene unit.
@@ -29,27 +37,28 @@ struct Paper {
 }
 
 impl Paper {
-    /// Shows these points as large as possible, below a line of names and above two of them.
-    fn new(min: Point, max: Point, points: impl Iterator<Item = [f64; 2]>) -> Self {
+    /// Shows these points as large as possible, below a line of names and above so many lines of distances.
+    fn new(min: Point, max: Point, distances: u8, points: impl Iterator<Item = [f64; 2]>) -> Self {
         let mut pane = Pane::new(min, max);
         pane.rectangle(pane.min, pane.max, Role::Paper);
         let nothing = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
         let bounds = points.fold(nothing, |bounds, point| {
             [0, 1].map(|axis| [bounds[axis][0].min(point[axis]), bounds[axis][1].max(point[axis])])
         });
-        let margins = [2.0 * MARGIN, 3.0 * LINE + 2.0 * MARGIN];
+        let margins = [2.0 * MARGIN, (1.0 + f32::from(distances)) * LINE + 2.0 * MARGIN];
         let scales = [0, 1].map(|axis| {
             let room = (pane.max[axis] - pane.min[axis] - margins[axis]).max(1.0);
             f64::from(room) / (bounds[axis][1] - bounds[axis][0]).max(1e-12)
         });
         let middle = bounds.map(|[low, high]| 0.5 * (low + high));
-        Self { pane, middle, scale: scales[0].min(scales[1]) }
+        let is_low = pane.max[1] - pane.min[1] < margins[1] + DOT;
+        Self { pane, names: Vec::new(), distances, is_low, middle, scale: scales[0].min(scales[1]) }
     }
 
     fn place(&self, point: [f64; 2]) -> Point {
         let (min, max) = (self.pane.min, self.pane.max);
-        // There is a line of names above, and two lines below.
-        let middle = [0.5 * (min[0] + max[0]), 0.5 * (min[1] + max[1] - LINE)];
+        let below = f32::from(self.distances) * LINE;
+        let middle = [0.5 * (min[0] + max[0]), 0.5 * (min[1] + LINE + max[1] - below)];
         let [x, y] = [0, 1].map(|axis| ((point[axis] - self.middle[axis]) * self.scale) as f32);
         [middle[0] + x, middle[1] - y]
     }
@@ -73,10 +82,18 @@ impl Paper {
         self.pane.outline(points, role, 1.5);
     }
 
-    fn dot(&mut self, at: [f64; 2], role: Role, name: &str) {
+    fn dot(&mut self, at: [f64; 2], role: Role, name: &'static str) {
         let at = self.place(at);
-        self.pane.dot(at, 3.5, role);
-        self.pane.name(at, role, name);
+        self.pane.dot(at, 0.5 * DOT, role);
+        self.names.push((at, role, name));
+    }
+
+    /// The finished figure.
+    fn finish(mut self) -> Pane {
+        for (at, role, name) in self.names {
+            self.pane.name(at, role, name);
+        }
+        self.pane
     }
 
     /// The height of the line of names above the figure.
@@ -86,19 +103,23 @@ impl Paper {
 
     /// Names things in a line, each near its place.
     fn row(&mut self, y: f32, names: &[([f64; 2], Role, &str)]) {
+        // In a very low strip, the figure itself takes this line.
+        if self.is_low {
+            return;
+        }
         let names = names.iter().map(|(at, role, name)| Name::new(self.place(*at)[0], *role, [*name]));
         self.pane.row(y, names.collect());
     }
 
     /// Shows a distance from the lens in a line of the lower edge.
-    fn distance(&mut self, number: u8, depth: f64, role: Role, name: &str) {
+    fn distance(&mut self, number: u8, depth: f64, role: Role, name: &'static str) {
         let y = self.pane.max[1] - (f32::from(number) + 0.5) * LINE;
         let [from, to] = [0.0, depth].map(|depth| self.place([depth, 0.0])[0]);
         for x in [from, to] {
             self.pane.line([x, y - 4.0], [x, y + 4.0], role, 1.0);
         }
         self.pane.line([from, y], [to, y], role, 1.0);
-        self.pane.name([from.max(to), y], role, name);
+        self.names.push(([from.max(to), y], role, name));
     }
 }
 
@@ -267,7 +288,7 @@ fn cross_section(front: &Front<'_>, min: Point, max: Point) -> Pane {
     let marks = diagram.focus.map(|(_, p)| p).into_iter().chain(diagram.hit);
     let marks = marks.filter(|point| point.z > 0.0 && point.z <= reach);
     let ends = rays.iter().flatten().copied().chain(marks).map(side);
-    let mut paper = Paper::new(min, max, axis.into_iter().chain(shown).chain(ends));
+    let mut paper = Paper::new(min, max, 2, axis.into_iter().chain(shown).chain(ends));
     paper.line(axis[0], axis[1], Role::Frame, 1.0);
     paper.line([d, half_picture], [d, -half_picture], Role::Faint, 2.0);
     let focus_role = Role::Focus;
@@ -301,7 +322,7 @@ fn cross_section(front: &Front<'_>, min: Point, max: Point) -> Pane {
         paper.dot(side(hit), Role::Light, "h");
     }
     paper.distance(1, d, Role::Faint, "d");
-    paper.pane
+    paper.finish()
 }
 
 fn layout(front: &Front<'_>, min: Point, max: Point) -> Pane {
@@ -314,7 +335,7 @@ fn layout(front: &Front<'_>, min: Point, max: Point) -> Pane {
     let l = front.start(&primary);
     let [r, p] = [d, end].map(|depth| front.at(&primary, depth));
     let shown = planes.iter().flatten().copied().chain(front.rim()).chain([l, r, p]);
-    let mut paper = Paper::new(min, max, shown.map(flat));
+    let mut paper = Paper::new(min, max, 0, shown.map(flat));
     for corner in planes[1] {
         paper.line([0.0; 2], flat(corner), Role::Frame, 1.0);
     }
@@ -339,7 +360,7 @@ fn layout(front: &Front<'_>, min: Point, max: Point) -> Pane {
     paper.dot(flat(r), Role::Primary, "r");
     let name = if diagram.focus.is_some() { "p" } else { "h" };
     paper.dot(flat(diagram.slope * end), far, name);
-    paper.pane
+    paper.finish()
 }
 
 /// The axes of the view plane.
@@ -355,7 +376,7 @@ fn two_rays(front: &Front<'_>, min: Point, max: Point) -> Pane {
     let primary = front.primary();
     let (l, r) = (front.start(&primary), front.at(&primary, d));
     let picture = front.picture(d);
-    let mut paper = Paper::new(min, max, picture.into_iter().chain(front.rim()).chain([l, r]).map(flat));
+    let mut paper = Paper::new(min, max, 0, picture.into_iter().chain(front.rim()).chain([l, r]).map(flat));
     paper.outline(picture.into_iter().map(flat), Role::Faint);
     for [from, to] in view_axes(diagram) {
         paper.line(flat(from), flat(to), Role::Grid, 1.0);
@@ -364,8 +385,7 @@ fn two_rays(front: &Front<'_>, min: Point, max: Point) -> Pane {
     paper.row(paper.head(), &names);
     let [x_axis, y_axis] = view_axes(diagram).map(|axis| axis[1]);
     let (x_end, y_end) = (paper.place(flat(x_axis)), paper.place(flat(y_axis)));
-    paper.pane.name(x_end, Role::Faint, "viewX");
-    paper.pane.name(y_end, Role::Faint, "viewY");
+    paper.names.extend([(x_end, Role::Faint, "viewX"), (y_end, Role::Faint, "viewY")]);
     let rim: Vec<Point> = front.rim().map(|point| paper.place(flat(point))).collect();
     paper.pane.area(rim.clone(), Role::GlassInside);
     paper.pane.outline(rim, Role::Glass, 1.5);
@@ -374,7 +394,7 @@ fn two_rays(front: &Front<'_>, min: Point, max: Point) -> Pane {
     paper.dot(flat(l), Role::Glass, "l");
     paper.dot(flat(diagram.q), Role::Text, "q");
     paper.dot(flat(r), Role::Primary, "r");
-    paper.pane
+    paper.finish()
 }
 
 fn circle_of_confusion(diagram: &Diagram, min: Point, max: Point) -> Pane {
@@ -385,7 +405,7 @@ fn circle_of_confusion(diagram: &Diagram, min: Point, max: Point) -> Pane {
     let axis = [[1.04 * end, 0.0], [0.04 * v, 0.0]];
     let ends = image.light_up.iter().flatten().copied().chain([image.p]).map(side);
     let shown = axis.into_iter().chain([[0.0, half], [0.0, -half]]).chain(ends);
-    let mut paper = Paper::new(min, max, shown);
+    let mut paper = Paper::new(min, max, 1, shown);
     paper.line(axis[0], axis[1], Role::Frame, 1.0);
     let x = paper.place([-v, 0.0])[0];
     let (top, bottom) = (paper.pane.min[1] + LINE + MARGIN, paper.pane.max[1] - LINE);
@@ -403,10 +423,10 @@ fn circle_of_confusion(diagram: &Diagram, min: Point, max: Point) -> Pane {
     paper.dot(side(image.p), Role::Film, "p'");
     let lowest = if falls[0][1] < falls[1][1] { falls[0] } else { falls[1] };
     let rim = paper.place(lowest);
-    paper.pane.name(rim, Role::Blur, "c");
+    paper.names.push((rim, Role::Blur, "c"));
     if let Some(crossing) = image.crossing.filter(|crossing| -crossing > 1.04 * end) {
         paper.dot(side(-crossing * diagram.slope), Role::Blur, "i");
     }
     paper.distance(0, -v, Role::Faint, "v");
-    paper.pane
+    paper.finish()
 }

@@ -267,7 +267,8 @@ impl Pane {
         self.shapes.push(Shape::Text { at, anchor, role, text });
     }
 
-    /// Writes the name of a thing beside its place, where there is no other text. Without such a place it is left out.
+    /// Writes the name of a thing beside its place, where there is no other text and no dot, and if possible no line. Without
+    /// such a place it is left out. What is drawn later may cover the name, so names come last.
     pub(super) fn name(&mut self, [x, y]: Point, role: Role, name: &str) {
         let width = text_width(name);
         let sides = [
@@ -276,10 +277,12 @@ impl Pane {
             [-NEAR - width, -0.6 * LINE],
             [-NEAR - width, 0.6 * LINE],
         ];
-        let farther = sides.map(|[right, down]| [2.0 * right, 2.0 * down]);
-        let places = sides.into_iter().chain(farther).map(|[right, down]| [x + right, y + down]);
-        if let Some(at) = places.into_iter().find(|at| self.is_free(*at, width)) {
-            self.text(at, Anchor::Start, role, name.to_owned());
+        let places = [1.0, 2.0, 3.0, 4.0]
+            .into_iter()
+            .flat_map(|times| sides.map(|[right, down]| [x + times * right, y + times * down]));
+        let free: Vec<Point> = places.filter(|at| self.is_free(*at, width)).collect();
+        if let Some(at) = free.iter().find(|at| !self.is_crossed(**at, width)).or(free.first()) {
+            self.text(*at, Anchor::Start, role, name.to_owned());
         }
     }
 
@@ -294,9 +297,42 @@ impl Pane {
                 let other = anchor.left(at[0], text_width(text));
                 left < other + text_width(text) && other < left + width && (y - at[1]).abs() < LETTERS
             }
+            Shape::Dot { at: [x, below], radius, .. } => {
+                let beside = (left - x).max(x - left - width).max(0.0);
+                let apart = ((y - below).abs() - 0.5 * LETTERS).max(0.0);
+                beside.hypot(apart) < *radius
+            }
             _ => false,
         });
         is_within && !is_covered
+    }
+
+    /// Whether a line passes through a text of this width that stands there.
+    fn is_crossed(&self, [left, y]: Point, width: f32) -> bool {
+        let (min, max) = ([left, y - 0.5 * LETTERS], [left + width, y + 0.5 * LETTERS]);
+        let crosses = |from: Point, to: Point| {
+            // The part of the line that lies between the sides, and between top and bottom.
+            let (mut begin, mut end) = (0.0_f32, 1.0_f32);
+            for axis in 0..2 {
+                let way = to[axis] - from[axis];
+                let ends = [min[axis], max[axis]].map(|side| (side - from[axis]) / way);
+                if way.abs() > 1e-6 {
+                    begin = begin.max(ends[0].min(ends[1]));
+                    end = end.min(ends[0].max(ends[1]));
+                } else if from[axis] < min[axis] || from[axis] > max[axis] {
+                    return false;
+                }
+            }
+            begin <= end
+        };
+        self.shapes.iter().any(|shape| match shape {
+            Shape::Line { points, closed, .. } => {
+                let last = points.first().filter(|_| *closed).zip(points.last());
+                points.windows(2).any(|pair| crosses(pair[0], pair[1]))
+                    || last.is_some_and(|(first, last)| crosses(*last, *first))
+            }
+            _ => false,
+        })
     }
 
     /// Writes names in a row, each as near as possible to its place, and none over another one. If there is not room
