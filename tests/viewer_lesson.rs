@@ -31,26 +31,61 @@ fn the_lesson_notices_what_was_done() {
         viewer.wait_for(name, |viewer| shows(viewer, on));
         viewer.controls.borrow_mut().remove("Skip step");
         viewer.click_once(on);
+        if on == "Next step" {
+            viewer.wait_for("a step that is not done yet", |viewer| shows(viewer, "Skip step"));
+        }
         viewer.rest();
     };
     let click = |pixel: [u32; 2], button: &str| {
         viewer.point(Viewer::in_window(pixel));
         viewer.hands(button, 0);
     };
+    // A control is framed by a bright line beside it.
+    let is_framed = |control: &str| {
+        let [x, y, width, height] = viewer.controls.borrow()[control];
+        let is_bright = |place: [i32; 2]| {
+            let corner = place.map(|at| i16::try_from(at).expect("on the screen"));
+            viewer.screen(corner, [1, 1])[0].into_iter().max() > Some(180)
+        };
+        is_bright([x - 3, y + height / 2]) && is_bright([x + width / 2, y - 3])
+    };
+    let frames = |control: &str| {
+        viewer.point_away();
+        viewer.rest();
+        for other in ["Lens diameter", "Focal plane distance", "Optics"] {
+            assert_eq!(is_framed(other), other == control, "{other}, but {control} is asked for");
+        }
+    };
+    let is_not_done = |after: &str| {
+        viewer.rest();
+        assert!(!shows(&viewer, "Next step"), "{after} counts as done");
+    };
+    frames("Lens diameter");
     step("a point", "Next step", &|| {
+        let is_narrow = |viewer: &Viewer| (0.01..0.2).contains(&viewer.state.borrow()[0]);
+        viewer.drag("Lens diameter", &[0.1, 0.05], is_narrow);
+        is_not_done("a narrow lens");
         viewer.drag("Lens diameter", &[0.05, 0.0], |viewer| viewer.state.borrow()[0] == 0.0);
     });
     step("a wide lens", "Next step", &|| {
+        let is_middling = |viewer: &Viewer| (0.1..0.17).contains(&viewer.state.borrow()[0]);
+        viewer.drag("Lens diameter", &[0.03, 0.08], is_middling);
+        is_not_done("f/5");
         viewer.drag("Lens diameter", &[0.1, 0.2], |viewer| viewer.state.borrow()[0] > 0.3);
     });
+    frames("Focal plane distance");
     step("another focus", "Next step", &|| click([800, 900], "click 3"));
     step("the drawing", "Next step", &|| {
+        frames("Optics");
         viewer.press("o");
+        is_not_done("the drawing by itself");
         click([450, 60], "click 1");
     });
     viewer.press("o");
     step("a narrow lens", "Next step", &|| {
         viewer.click("Lens", |viewer| shows(viewer, "f/16"));
+        viewer.click_once("f/11");
+        is_not_done("f/11");
         viewer.click_once("f/16");
     });
     step("more points", "Finish", &|| {
