@@ -1,13 +1,15 @@
 //! The parts of the window that use Vulkan: a swapchain that is replaced as the window changes, frames in flight, and
 //! imgui's renderer.
 
+use super::thumbnails;
 use crate::error::{Error, Result};
 use crate::output;
 use crate::renderer::{Excerpt, Pace, Picked, Prepared, Progress, Question, Renderer};
 use crate::settings::{DeviceChoice, Settings};
 use crate::vulkan::{
-    Acquired, AcquiredImage, Commands, Device, FRAMES_IN_FLIGHT, Image, Instance, Surface, Swapchain,
+    Acquired, AcquiredImage, Commands, Device, FRAMES_IN_FLIGHT, Image, Instance, Surface, Swapchain, Texture,
 };
+use imgui::TextureId;
 use imgui_rs_vulkan_renderer::{DynamicRendering, Options};
 use std::path::Path;
 use std::sync::Arc;
@@ -28,6 +30,7 @@ pub(super) struct Wanted {
 /// and the surface must be dropped before the window.
 pub(super) struct Graphics {
     overlay: Option<imgui_rs_vulkan_renderer::Renderer>,
+    thumbnails: Option<(Texture, TextureId)>,
     swapchain: Option<Swapchain>,
     /// The picture that is held for comparison.
     held: Option<Image>,
@@ -61,6 +64,7 @@ impl Graphics {
         device.keep_pipelines();
         Ok(Self {
             overlay: None,
+            thumbnails: None,
             swapchain: None,
             held: None,
             renderer: None,
@@ -87,6 +91,11 @@ impl Graphics {
     /// Shows the pictures of this renderer from now on.
     pub(super) fn start(&mut self, renderer: Renderer) {
         self.renderer = Some(renderer);
+    }
+
+    /// What the panel knows the thumbnails by.
+    pub(super) fn thumbnails(&self) -> Option<TextureId> {
+        self.thumbnails.as_ref().map(|(_, id)| *id)
     }
 
     /// Whether there is a renderer.
@@ -125,6 +134,10 @@ impl Graphics {
         };
         let extent = swapchain.extent();
         if self.overlay.is_none() {
+            let texture = match self.thumbnails.take() {
+                Some((texture, _)) => texture,
+                None => thumbnails::upload(&self.device)?,
+            };
             // It uploads the fonts when it is made.
             let (device, queue, allocator) = self.device.raw_parts();
             let options = Options { in_flight_frames: FRAMES_IN_FLIGHT, ..Options::default() };
@@ -141,7 +154,9 @@ impl Graphics {
                 imgui,
                 Some(options),
             );
-            self.overlay = Some(overlay.map_err(overlay_error)?);
+            let overlay = self.overlay.insert(overlay.map_err(overlay_error)?);
+            let id = overlay.textures().insert(texture.descriptor_set());
+            self.thumbnails = Some((texture, id));
         }
         Ok(Some(extent))
     }

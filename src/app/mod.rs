@@ -22,6 +22,7 @@ mod render_job;
 mod save_as;
 pub mod telemetry;
 mod theme;
+mod thumbnails;
 mod typing;
 mod ui;
 mod window;

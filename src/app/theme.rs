@@ -116,6 +116,9 @@ pub(super) const VIEWS_WIDTH: f32 = 150.0;
 pub(super) const BLUR_WIDTH: f32 = 200.0;
 /// The largest width of a path in a list.
 pub(super) const PATH_WIDTH: f32 = 420.0;
+/// The picture of a scene in the list of scenes, and the width of the lines beside it.
+pub(super) const THUMBNAIL: [f32; 2] = [112.0, 70.0];
+pub(super) const ABOUT_WIDTH: f32 = 280.0;
 /// The width of a line of a tooltip, and the space around its text.
 pub(super) const TOOLTIP_WIDTH: f32 = 280.0;
 pub(super) const TOOLTIP_PADDING: f32 = 8.0;

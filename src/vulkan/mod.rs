@@ -23,6 +23,7 @@ mod pipeline_cache;
 mod reflection;
 mod surface;
 mod swapchain;
+mod texture;
 mod timing;
 mod upload;
 mod validation;
@@ -39,6 +40,7 @@ pub use pipeline::{Binding, BindingSet, ComputePipeline, Shader};
 pub use reflection::{ResourceKind, ShaderInterface, StructLayout};
 pub use surface::Surface;
 pub use swapchain::{Acquired, AcquiredImage, FRAMES_IN_FLIGHT, Swapchain};
+pub use texture::Texture;
 pub use timing::Timer;
 
 use crate::error::{Error, Result};

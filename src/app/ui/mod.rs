@@ -17,6 +17,7 @@ mod output;
 mod overlay;
 mod rows;
 mod sampling;
+mod scenes;
 mod sensor;
 mod tolerance;
 mod widgets;
@@ -25,17 +26,17 @@ use super::area::Area;
 use super::dialog::Purpose;
 use super::guide::Guide;
 use super::message::Offer;
-use super::panel::{Panel, builtin};
+use super::panel::Panel;
 use super::telemetry;
-use super::theme::{self, GROUP_GAP, ICON, ICON_GAP, MIN_SECTIONS, PATH_WIDTH, SPACING};
+use super::theme::{self, GROUP_GAP, ICON, ICON_GAP, MIN_SECTIONS, SPACING};
 use crate::diagram::{Diagram, sharp_depths};
 use crate::renderer::{Excerpt, Picked, Progress};
 use crate::scene::CameraModel;
 use crate::settings::Part;
 use icons::{Icon, IconButton};
-use imgui::{Condition, Ui, WindowFlags};
+use imgui::{Condition, TextureId, Ui, WindowFlags};
 use optics::Seen;
-use widgets::{Folds, Layout, Row, Side, button, edge, from_end, list, note_item, section, tick};
+use widgets::{Folds, Layout, Row, Side, button, edge, section, tick};
 
 /// What the panel shows besides the settings.
 pub(super) struct Status<'a> {
@@ -50,6 +51,8 @@ pub(super) struct Status<'a> {
     pub(super) diagram: Option<&'a Diagram>,
     /// The picture around that pixel.
     pub(super) excerpt: Option<&'a Excerpt>,
+    /// The thumbnails of the built-in scenes.
+    pub(super) thumbnails: Option<TextureId>,
     /// What another thread is loading, if anything.
     pub(super) loading: Option<String>,
 }
@@ -185,7 +188,7 @@ impl Panel {
     /// Draws what stays in view, and below it the sections, which scroll.
     fn column_of_controls(&mut self, ui: &Ui, status: &Status<'_>, layout: &mut Layout) -> Option<Action> {
         let mut folds = std::mem::take(&mut self.folds);
-        let mut action = self.scene_and_help(ui, layout);
+        let mut action = self.scene_and_help(ui, status, layout);
         self.main_sliders(ui, layout);
         self.rows(ui, Part::Points, layout);
         self.progress(ui, status);
@@ -364,32 +367,9 @@ impl Panel {
     }
 
     /// Draws the list of scenes, and at its right the button for help.
-    fn scene_and_help(&mut self, ui: &Ui, layout: &mut Layout) -> Option<Action> {
-        let mut chosen = None;
-        let shown = self.settings.estimator.scene.source.clone();
-        let help = "The scene: a built-in one, or one that you have opened.";
+    fn scene_and_help(&mut self, ui: &Ui, status: &Status<'_>, layout: &mut Layout) -> Option<Action> {
         let width = ui.content_region_avail()[0] - ICON - SPACING[0];
-        // The arrow of the list is as wide as it is high.
-        let room = width - 2.0 * ui.frame_height();
-        let preview = from_end(ui, &shown.to_string_lossy(), room);
-        ui.set_next_item_width(width);
-        list(ui, "Scene", &preview, help, layout, |layout| {
-            for (number, name) in self.scenes.iter().enumerate() {
-                // imgui needs an id, because two scenes may be shown by the same name.
-                let _id = ui.push_id_usize(number);
-                let label = from_end(ui, &name.to_string_lossy(), PATH_WIDTH);
-                if ui.selectable_config(label).selected(*name == shown).build() {
-                    chosen = Some(name.clone());
-                }
-                if let Some(builtin) = builtin(name) {
-                    note_item(ui, builtin.name, layout);
-                    ui.text_disabled(format!("    {}", builtin.about));
-                }
-            }
-        });
-        if let Some(name) = chosen {
-            self.open(&name);
-        }
+        self.scene_chooser(ui, width, status.thumbnails, layout);
         ui.same_line();
         let help = "Help (?): lists what the mouse and the keys do.";
         let button = IconButton { icon: Icon::Help, name: "Help", help, is_on: self.keys, can: true };

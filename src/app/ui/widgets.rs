@@ -104,7 +104,7 @@ pub(super) fn beside(ui: &Ui, text: &str, color: Color) {
 }
 
 /// A text in lines that fit.
-fn wrapped(text: &str, fits: impl Fn(&str) -> bool) -> Vec<String> {
+pub(super) fn wrapped(text: &str, fits: impl Fn(&str) -> bool) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {
         let last = lines.last_mut().expect("there is a line");

@@ -102,6 +102,7 @@ impl OpenWindow {
             picked: self.focus.under_pointer(),
             diagram: self.focus.diagram(),
             excerpt: self.graphics.excerpt(),
+            thumbnails: self.graphics.thumbnails(),
             loading: self
                 .loader
                 .loading()

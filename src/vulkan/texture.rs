@@ -1,0 +1,182 @@
+//! Pictures that imgui's renderer draws.
+
+use super::buffer::{allocate, release};
+use super::command::LAYER;
+use super::image::WHOLE;
+use super::{Buffer, Commands, Device, Residence, check};
+use crate::error::Result;
+use ash::vk;
+use gpu_allocator::MemoryLocation;
+use gpu_allocator::vulkan::Allocation;
+use std::sync::Arc;
+
+/// A picture of four bytes a pixel, with the descriptor set by which imgui's renderer reads it. The renderer must be
+/// dropped before it.
+pub struct Texture {
+    raw: vk::Image,
+    view: vk::ImageView,
+    sampler: vk::Sampler,
+    layout: vk::DescriptorSetLayout,
+    pool: vk::DescriptorPool,
+    set: vk::DescriptorSet,
+    allocation: Option<Allocation>,
+    device: Arc<Device>,
+}
+
+/// imgui's colours are those of the screen, so the format converts nothing.
+const FORMAT: vk::Format = vk::Format::R8G8B8A8_UNORM;
+
+impl Texture {
+    /// Uploads a picture, row by row from the top left, and waits until it is there.
+    ///
+    /// # Errors
+    /// [`Error::Limit`](crate::error::Error::Limit) where the device has no images as wide or high.
+    pub fn new(device: &Arc<Device>, name: &'static str, extent: [u32; 2], rgba: &[[u8; 4]]) -> Result<Self> {
+        device.limits.check_image(name, extent)?;
+        let mut texture = Self {
+            raw: vk::Image::null(),
+            view: vk::ImageView::null(),
+            sampler: vk::Sampler::null(),
+            layout: vk::DescriptorSetLayout::null(),
+            pool: vk::DescriptorPool::null(),
+            set: vk::DescriptorSet::null(),
+            allocation: None,
+            device: Arc::clone(device),
+        };
+        texture.make_image(name, extent)?;
+        texture.make_set()?;
+        texture.fill(extent, rgba)?;
+        Ok(texture)
+    }
+
+    /// What imgui's renderer knows the picture by.
+    pub fn descriptor_set(&self) -> vk::DescriptorSet {
+        self.set
+    }
+
+    fn make_image(&mut self, name: &'static str, [width, height]: [u32; 2]) -> Result<()> {
+        let device = &self.device;
+        let info = vk::ImageCreateInfo::default()
+            .image_type(vk::ImageType::TYPE_2D)
+            .format(FORMAT)
+            .extent(vk::Extent3D { width, height, depth: 1 })
+            .mip_levels(1)
+            .array_layers(1)
+            .samples(vk::SampleCountFlags::TYPE_1)
+            .tiling(vk::ImageTiling::OPTIMAL)
+            .usage(vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST);
+        // SAFETY: the device is valid. `self` owns the handle before anything else can fail.
+        self.raw = check("creating a texture", unsafe { device.raw.create_image(&info, None) })?;
+        // SAFETY: raw is an image of this device.
+        let requirements = unsafe { device.raw.get_image_memory_requirements(self.raw) };
+        let allocation = allocate(device, name, requirements, MemoryLocation::GpuOnly, false)?;
+        // SAFETY: the memory was allocated for this image's requirements and is bound once.
+        let bound =
+            unsafe { device.raw.bind_image_memory(self.raw, allocation.memory(), allocation.offset()) };
+        self.allocation = Some(allocation);
+        check("binding a texture's memory", bound)?;
+        let info = vk::ImageViewCreateInfo::default()
+            .image(self.raw)
+            .view_type(vk::ImageViewType::TYPE_2D)
+            .format(FORMAT)
+            .subresource_range(WHOLE);
+        // SAFETY: the image is bound and has this format.
+        self.view = check("creating a texture's view", unsafe { device.raw.create_image_view(&info, None) })?;
+        device.set_name(self.raw, name);
+        Ok(())
+    }
+
+    /// Makes the descriptor set, in the layout of imgui's renderer: one picture for the fragment shader.
+    fn make_set(&mut self) -> Result<()> {
+        let raw = &self.device.raw;
+        let edge = vk::SamplerAddressMode::CLAMP_TO_EDGE;
+        let sampler = vk::SamplerCreateInfo::default()
+            .mag_filter(vk::Filter::LINEAR)
+            .min_filter(vk::Filter::LINEAR)
+            .address_mode_u(edge)
+            .address_mode_v(edge)
+            .address_mode_w(edge);
+        let kind = vk::DescriptorType::COMBINED_IMAGE_SAMPLER;
+        let bindings = [vk::DescriptorSetLayoutBinding::default()
+            .descriptor_type(kind)
+            .descriptor_count(1)
+            .stage_flags(vk::ShaderStageFlags::FRAGMENT)];
+        let layout = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
+        let sizes = [vk::DescriptorPoolSize { ty: kind, descriptor_count: 1 }];
+        let pool = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
+        // SAFETY: the device is valid, and `self` owns each handle before anything else can fail. The set is of this
+        // layout and pool, and nothing uses it yet.
+        unsafe {
+            self.sampler = check("creating a sampler", raw.create_sampler(&sampler, None))?;
+            self.layout =
+                check("creating a descriptor set layout", raw.create_descriptor_set_layout(&layout, None))?;
+            self.pool = check("creating a descriptor pool", raw.create_descriptor_pool(&pool, None))?;
+            let layouts = [self.layout];
+            let sets =
+                vk::DescriptorSetAllocateInfo::default().descriptor_pool(self.pool).set_layouts(&layouts);
+            self.set = check("allocating a descriptor set", raw.allocate_descriptor_sets(&sets))?[0];
+            let image = [vk::DescriptorImageInfo::default()
+                .sampler(self.sampler)
+                .image_view(self.view)
+                .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)];
+            let write =
+                vk::WriteDescriptorSet::default().dst_set(self.set).descriptor_type(kind).image_info(&image);
+            raw.update_descriptor_sets(&[write], &[]);
+        }
+        Ok(())
+    }
+
+    fn fill(&self, [width, height]: [u32; 2], rgba: &[[u8; 4]]) -> Result<()> {
+        let bytes: &[u8] = rgba.as_flattened();
+        let mut staging = Buffer::new(&self.device, "staging", bytes.len() as u64, Residence::Staging)?;
+        staging.write(bytes);
+        let mut commands = Commands::new(&self.device)?;
+        let mut recording = commands.begin()?;
+        let barrier = || vk::ImageMemoryBarrier2::default().image(self.raw).subresource_range(WHOLE);
+        let written = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
+        let before = [barrier()
+            .new_layout(written)
+            .dst_stage_mask(vk::PipelineStageFlags2::ALL_TRANSFER)
+            .dst_access_mask(vk::AccessFlags2::TRANSFER_WRITE)];
+        recording.depend(&vk::DependencyInfo::default().image_memory_barriers(&before));
+        let region = [vk::BufferImageCopy::default().image_subresource(LAYER).image_extent(vk::Extent3D {
+            width,
+            height,
+            depth: 1,
+        })];
+        // SAFETY: recording is under way, the barrier above gave the image this layout, and the buffer has its pixels.
+        unsafe {
+            self.device.raw.cmd_copy_buffer_to_image(
+                recording.raw(),
+                staging.raw,
+                self.raw,
+                written,
+                &region,
+            );
+        }
+        let after = [barrier()
+            .old_layout(written)
+            .new_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)
+            .src_stage_mask(vk::PipelineStageFlags2::ALL_TRANSFER)
+            .src_access_mask(vk::AccessFlags2::TRANSFER_WRITE)
+            .dst_stage_mask(vk::PipelineStageFlags2::FRAGMENT_SHADER)
+            .dst_access_mask(vk::AccessFlags2::SHADER_SAMPLED_READ)];
+        recording.depend(&vk::DependencyInfo::default().image_memory_barriers(&after));
+        recording.submit()?;
+        commands.wait()
+    }
+}
+
+impl Drop for Texture {
+    fn drop(&mut self) {
+        // SAFETY: whoever draws with the texture holds it until that is done; null handles are allowed.
+        unsafe {
+            self.device.raw.destroy_descriptor_pool(self.pool, None);
+            self.device.raw.destroy_descriptor_set_layout(self.layout, None);
+            self.device.raw.destroy_sampler(self.sampler, None);
+            self.device.raw.destroy_image_view(self.view, None);
+            self.device.raw.destroy_image(self.raw, None);
+        }
+        release(&self.device, self.allocation.take());
+    }
+}
