@@ -67,7 +67,6 @@ impl Over {
             | WindowFlags::NO_COLLAPSE
             | WindowFlags::NO_MOVE
             | WindowFlags::NO_NAV
-            | WindowFlags::NO_DOCKING
             | WindowFlags::NO_SAVED_SETTINGS
             | WindowFlags::NO_FOCUS_ON_APPEARING;
         flags.set(WindowFlags::NO_SCROLLBAR, !self.scrolls);

@@ -158,7 +158,6 @@ fn color(of: StyleColor) -> Color {
         | Of::BorderShadow
         | Of::MenuBarBg
         | Of::ScrollbarBg
-        | Of::DockingEmptyBg
         | Of::TableRowBg
         | Of::TableRowBgAlt => NOTHING,
         Of::Border
@@ -183,7 +182,6 @@ fn color(of: StyleColor) -> Color {
         | Of::SeparatorActive
         | Of::ResizeGripHovered
         | Of::ResizeGripActive
-        | Of::DockingPreview
         | Of::PlotLinesHovered
         | Of::PlotHistogramHovered
         | Of::DragDropTarget

@@ -33,7 +33,6 @@ impl Panel {
                 WindowFlags::NO_DECORATION
                     | WindowFlags::NO_BACKGROUND
                     | WindowFlags::NO_SAVED_SETTINGS
-                    | WindowFlags::NO_DOCKING
                     | WindowFlags::NO_FOCUS_ON_APPEARING
                     | WindowFlags::NO_BRING_TO_FRONT_ON_FOCUS,
             )
