@@ -73,11 +73,11 @@ fn drag(display: &str, [x, y, width, height]: [i32; 4]) -> Vec<Vec<Seen>> {
     sweeps
 }
 
-/// The middle of the slider's knob, which is brighter than the slider.
+/// The middle of the knob of the slider, which is brighter than the slider, and has the accent colour while it is held.
 fn knob(viewer: &Viewer, [x, y, width, height]: [i32; 4]) -> Option<f64> {
     let corner = [x, y + height / 2].map(|place| i16::try_from(place).expect("on the screen"));
     let row = viewer.screen(corner, [u16::try_from(width).expect("a width"), 1]);
-    let bright = (0..).zip(&row).filter(|(_, pixel)| pixel.iter().take(3).all(|level| *level > 180));
+    let bright = (0..).zip(&row).filter(|(_, pixel)| pixel[0] > 180 && pixel[1] > 150);
     let columns: Vec<i32> = bright.map(|(column, _)| column).collect();
     Some(f64::from(x) + f64::from(columns.first()? + columns.last()?) / 2.0)
 }
