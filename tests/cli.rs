@@ -437,7 +437,7 @@ fn a_drawing_of_the_optics_is_saved() {
             "pixel is at 320,0, but must be within the picture's 320x240 pixels",
         ),
         (&["-o", "a.svg", "--also-at", "1,2,3"], "--also-at has 3 depths, but can have 2"),
-        (&["-o", "a.svg", "--also-at", "-1"], "--also-at is -1, but must be from 0.000001"),
+        (&["-o", "a.svg", "--also-at", "-1"], "--also-at is -1, but must be from 1e-6"),
         (&["-o", "a.svg", "--rays", "1"], "rays is 1, but must be from 3 to 65"),
         (
             &["-o", "a.svg", "--drawing-size", "100x300"],

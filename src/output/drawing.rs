@@ -8,6 +8,7 @@ use crate::error::{Error, Result};
 use crate::input_file;
 use crate::pending_file::{PendingFile, keep_apart};
 use crate::renderer::{Excerpt, Question, Renderer};
+use crate::scene::{FOCAL_DISTANCES, in_range};
 use crate::settings::{DeviceChoice, Place, Settings};
 use crate::vulkan::{Device, Instance};
 use resvg::tiny_skia::{Pixmap, Transform};
@@ -23,8 +24,6 @@ const EXTENTS: [u32; 2] = [200, 16384];
 const MAX_PNG: u32 = 4096;
 /// A PNG has so many pixels for each unit of a drawing, so that its letters can be read well.
 const PNG_SCALE: u32 = 2;
-/// The smallest and the largest depth of a point, in scene units.
-const DEPTHS: [f64; 2] = [1e-6, 1e9];
 /// The smallest and the largest number of rays through the lens.
 const RAYS: [u32; 2] = [3, 65];
 
@@ -66,14 +65,12 @@ pub fn draw_optics(job: &DrawingJob) -> Result<()> {
         Format::Svg => [least, most],
         Format::Png => [least, MAX_PNG],
     };
-    for (what, value, [least, most]) in [
+    for (what, value, range) in [
         ("the width of the drawing", job.size[0], extents),
         ("the height of the drawing", job.size[1], extents),
         ("rays", job.rays, RAYS),
     ] {
-        if !(least..=most).contains(&value) {
-            return Err(Error::OutOfRange(format!("{what} is {value}, but must be from {least} to {most}")));
-        }
+        in_range(value, range).map_err(|wrong| Error::OutOfRange(format!("{what} {wrong}")))?;
     }
     if job.kept.len() > KEPT {
         return Err(Error::OutOfRange(format!(
@@ -81,9 +78,9 @@ pub fn draw_optics(job: &DrawingJob) -> Result<()> {
             job.kept.len()
         )));
     }
-    if let Some(depth) = job.kept.iter().find(|depth| !(DEPTHS[0]..=DEPTHS[1]).contains(*depth)) {
-        let [least, most] = DEPTHS;
-        return Err(Error::OutOfRange(format!("--also-at is {depth}, but must be from {least} to {most}")));
+    for depth in &job.kept {
+        in_range(*depth as f32, FOCAL_DISTANCES)
+            .map_err(|wrong| Error::OutOfRange(format!("--also-at {wrong}")))?;
     }
     let mut read = job.settings.files();
     read.extend(job.picture.as_deref().map(|picture| ("the picture", picture)));
