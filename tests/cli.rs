@@ -488,6 +488,6 @@ fn a_drawing_is_saved_as_png() {
     };
     let parts = [inked(left, left + 0.5 * long), inked(left + 0.5 * long, left + long + 1.0)];
     assert!(parts.iter().all(|count| *count > 100), "the letters have {parts:?} pixels");
-    let paper = [0.045, 0.05, 0.065].map(|level: f64| (255.0 * level).round() as u8);
+    let paper = [0.05; 3].map(|level: f64| (255.0 * level).round() as u8);
     assert_eq!(pixel([1.0, 1.0]), paper);
 }
