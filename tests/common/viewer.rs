@@ -186,6 +186,8 @@ impl Viewer {
             _server: server,
         };
         viewer.wait_for("the panel", |viewer| viewer.controls.borrow().contains_key("Reset"));
+        // Where a window gets the focus together with its first key, the key may come before the modifier that is held.
+        viewer.xdotool("search --class thinlens windowfocus --sync");
         viewer
     }
 }
