@@ -10,7 +10,7 @@
 #[path = "../tests/common/mod.rs"]
 mod common;
 
-use common::viewer::Viewer;
+use common::viewer::{SECTIONS, Viewer};
 use std::path::Path;
 use std::time::{Duration, Instant};
 use x11rb::connection::Connection;
@@ -105,20 +105,6 @@ fn waits(sweep: &[Seen], shown: &[Seen]) -> Vec<f64> {
         })
         .collect()
 }
-
-/// The sections of the panel that are folded at first.
-const SECTIONS: [&str; 10] = [
-    "Lens",
-    "Aperture shape",
-    "Viewpoint",
-    "Shift, tilt, colour errors",
-    "Light",
-    "Sampling",
-    "View",
-    "Output",
-    "Files",
-    "Device",
-];
 
 /// Makes the viewer that is started in this folder open with all of the panel unfolded.
 fn unfold_all(folder: &Path) {

@@ -78,12 +78,11 @@ float encoded_luminance(const ivec2 cell, const vec4 film) {
 // By how much the encoded luminance changes from cell to cell: the length of the gradient by Sobel's operator.
 float contrast_at(const ivec2 cell, const vec4 film) {
     vec2 gradient = vec2(0.0);
-    for (int along = -1; along <= 1; ++along) {
-        float weight = along == 0 ? 0.25 : 0.125;
-        gradient.x += weight * (encoded_luminance(cell + ivec2(1, along), film)
-                                - encoded_luminance(cell + ivec2(-1, along), film));
-        gradient.y += weight * (encoded_luminance(cell + ivec2(along, 1), film)
-                                - encoded_luminance(cell + ivec2(along, -1), film));
+    for (int y = -1; y <= 1; ++y) {
+        for (int x = -1; x <= 1; ++x) {
+            float weight = x == 0 || y == 0 ? 0.25 : 0.125;
+            gradient += weight * vec2(x, y) * encoded_luminance(cell + ivec2(x, y), film);
+        }
     }
     return length(gradient);
 }

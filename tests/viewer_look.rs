@@ -2,20 +2,8 @@
 
 mod common;
 
-use common::viewer::{PANEL, Viewer};
+use common::viewer::{PANEL, SECTIONS, Viewer};
 
-const SECTIONS: [&str; 10] = [
-    "Lens",
-    "Aperture shape",
-    "Viewpoint",
-    "Shift, tilt, colour errors",
-    "Light",
-    "Sampling",
-    "View",
-    "Output",
-    "Files",
-    "Device",
-];
 const HEAD: [&str; 8] = ["Autofocus", "Pick focus", "Optics", "Undo", "Redo", "Reset", "Compare", "Pause"];
 
 /// Catches a head of the panel that leaves no room for the sections, buttons that need a second row, and a tolerance that

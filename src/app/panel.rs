@@ -18,6 +18,7 @@ use crate::error::Error;
 use crate::output::{self, PictureFormat};
 use crate::scene::{Aperture, ApertureImage, BUILTINS, Builtin, Depths, Extents, SceneRef};
 use crate::settings::{Called, Settings};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use winit::window::Window;
@@ -106,6 +107,11 @@ pub(super) struct State {
     initial: Settings,
     /// The depth that the point in the drawing of the optics was moved to. Which pixel is drawn is no change.
     depth: Option<f64>,
+}
+
+/// The name of a scene without its folder.
+pub(super) fn file_name(scene: &Path) -> Cow<'_, str> {
+    scene.file_name().unwrap_or(scene.as_os_str()).to_string_lossy()
 }
 
 pub(super) fn builtin(name: &Path) -> Option<&'static Builtin> {
@@ -285,8 +291,7 @@ impl Panel {
 
     /// The title of the window: the name of the scene.
     pub(super) fn title(&self) -> String {
-        let source = &self.settings.estimator.scene.source;
-        format!("{} - thinlens", source.file_name().unwrap_or(source.as_os_str()).to_string_lossy())
+        format!("{} - thinlens", file_name(&self.settings.estimator.scene.source))
     }
 
     /// The settings of the picture that is shown.

@@ -204,10 +204,9 @@ impl Prepared {
         let keys = Keys::new(settings, answers);
         let scene = self.keys.scene.clone();
         let stands = keys.scene.scene.stage().is_none_or(|stage| *stage == keys.scene.stage);
-        let colors = || SceneColors::new(&keys.scene.scene, self.scene.reach());
         stands
             && scene.has_shapes_of(&keys.scene)
-            && self.scene.shares_pipelines_with(&colors())
+            && self.scene.shares_pipelines_with(&SceneColors::new(&keys.scene.scene, self.scene.reach()))
             && self.keys == Keys { scene, ..keys }
     }
 

@@ -26,6 +26,19 @@ const PATIENCE: Duration = Duration::from_secs(60);
 
 /// The width of the panel, which stands at the left of the picture.
 pub const PANEL: u16 = 320;
+/// The sections of the panel that are folded at first.
+pub const SECTIONS: [&str; 10] = [
+    "Lens",
+    "Aperture shape",
+    "Viewpoint",
+    "Shift, tilt, colour errors",
+    "Light",
+    "Sampling",
+    "View",
+    "Output",
+    "Files",
+    "Device",
+];
 
 /// A display that nobody sees.
 pub struct Server {

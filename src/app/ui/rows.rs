@@ -2,7 +2,7 @@
 
 use super::sensor::sensor;
 use super::tolerance::tolerance;
-use super::widgets::{Layout, beside, combo, heading, note_item, points_at_item, tick, tooltip};
+use super::widgets::{Layout, beside, combo, heading, note_item, points_at_item, share, tick, tooltip};
 use crate::app::panel::Panel;
 use crate::app::theme::{self, SLIDER_MARK};
 use crate::app::typing::Typing;
@@ -84,7 +84,7 @@ impl Panel {
                 slide(ui, &id, setting, slider, &mut self.settings, &self.initial);
                 if setting.flag == FOCUS {
                     let ends = (slider.range)(&self.initial).map(f64::from);
-                    mark_depths(ui, &self.depths(), |depth| share(slider, ends, depth));
+                    mark_depths(ui, &self.depths(), |depth| share(slider.logarithmic, ends, depth));
                 }
             }
             (_, Access::Tolerance(field)) => {
@@ -136,7 +136,7 @@ impl Panel {
                 (_, Some(decimals)) => 10_f64.powi(-decimals),
                 _ => 0.0,
             };
-            let next = at(slider, ends, share(slider, ends, now) + direction * length);
+            let next = at(slider, ends, share(slider.logarithmic, ends, now) + direction * length);
             let next = if (next - now).abs() < least { now + direction * least } else { next };
             // A value beyond the ends was typed, and goes no further.
             let value = rounded_to(slider, next).clamp(ends[0].min(now), ends[1].max(now));
@@ -178,16 +178,6 @@ impl Panel {
     }
 }
 
-/// The position of a number on a slider with these ends, from 0 to 1.
-fn share(slider: &Slider, [low, high]: [f64; 2], number: f64) -> f64 {
-    let share = if slider.logarithmic {
-        (number / low).ln() / (high / low).ln()
-    } else {
-        (number - low) / (high - low)
-    };
-    if share.is_nan() { 0.0 } else { share.clamp(0.0, 1.0) }
-}
-
 /// The number at a position of a slider.
 fn at(slider: &Slider, [low, high]: [f64; 2], share: f64) -> f64 {
     let share = share.clamp(0.0, 1.0);
@@ -210,7 +200,7 @@ fn rounded_to(slider: &Slider, number: f64) -> f64 {
 /// Draws a slider. A value that the user does not change keeps every bit.
 fn slide(ui: &Ui, id: &str, setting: &Setting, slider: &Slider, settings: &mut Settings, initial: &Settings) {
     let ends = (slider.range)(initial).map(f64::from);
-    let mut now = share(slider, ends, setting.number(settings).unwrap_or(0.0));
+    let mut now = share(slider.logarithmic, ends, setting.number(settings).unwrap_or(0.0));
     // imgui's own field reads 1/250 as 1.
     let flags = SliderFlags::NO_INPUT | SliderFlags::NO_ROUND_TO_FORMAT | SliderFlags::ALWAYS_CLAMP;
     let _low = theme::slider(ui, now as f32);

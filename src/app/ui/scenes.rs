@@ -1,7 +1,7 @@
 //! The list of scenes: built-in ones with a picture and a description, and files that were opened.
 
 use super::widgets::{Layout, from_end, note, note_item, tooltip, wrapped};
-use crate::app::panel::{Panel, builtin};
+use crate::app::panel::{Panel, builtin, file_name};
 use crate::app::theme::{ABOUT_WIDTH, PATH_WIDTH, SPACING, THUMBNAIL, TOOLTIP_WIDTH};
 use crate::scene::{BUILTINS, Builtin};
 use imgui::{ComboBoxFlags, StyleColor, TextureId, Ui};
@@ -19,8 +19,8 @@ impl Panel {
         let shown = self.settings.estimator.scene.source.clone();
         let mut chosen = None;
         ui.set_next_item_width(width);
-        let name = if builtin(&shown).is_some() { shown.to_string_lossy() } else { file_name(&shown) };
-        if let Some(_open) = ui.begin_combo_with_flags("##Scene", &*name, ComboBoxFlags::HEIGHT_LARGE) {
+        let flags = ComboBoxFlags::HEIGHT_LARGE;
+        if let Some(_open) = ui.begin_combo_with_flags("##Scene", file_name(&shown), flags) {
             for (number, scene) in self.scenes.iter().enumerate() {
                 // imgui needs an id, because two scenes may be shown by the same name.
                 let _id = ui.push_id_usize(number);
@@ -89,8 +89,4 @@ fn file_row(ui: &Ui, file: &Path, is_shown: bool) -> bool {
     let pressed = ui.selectable_config(file_name(file)).selected(is_shown).build();
     tooltip(ui, &from_end(ui, &file.to_string_lossy(), PATH_WIDTH));
     pressed
-}
-
-fn file_name(file: &Path) -> std::borrow::Cow<'_, str> {
-    file.file_name().unwrap_or(file.as_os_str()).to_string_lossy()
 }

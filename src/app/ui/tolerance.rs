@@ -1,6 +1,6 @@
 //! The row of the tolerance: a number, and the list of its units.
 
-use super::widgets::{Layout, note_item, tooltip};
+use super::widgets::{Layout, note_item, share, tooltip};
 use crate::app::theme::{self, SPACING, UNIT_WIDTH};
 use crate::scene::{TOLERANCES_MM, TOLERANCES_PIXELS, Tolerance};
 use crate::settings::{Field, Row, Settings};
@@ -28,7 +28,7 @@ pub(super) fn tolerance(
         | SliderFlags::LOGARITHMIC
         | SliderFlags::NO_ROUND_TO_FORMAT
         | SliderFlags::NO_INPUT;
-    let low_slider = theme::slider(ui, (*number / low).ln() / (high / low).ln());
+    let low_slider = theme::slider(ui, share(true, [low, high].map(f64::from), f64::from(*number)) as f32);
     ui.slider_config(id, low, high).display_format("").flags(flags).build(number);
     drop(low_slider);
     note_item(ui, row.label, layout);

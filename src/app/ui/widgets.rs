@@ -64,6 +64,13 @@ pub(super) fn points_at_item(ui: &Ui) -> bool {
     ui.is_window_hovered() && ui.is_mouse_hovering_rect(ui.item_rect_min(), ui.item_rect_max())
 }
 
+/// The position of a number on a slider with these ends, from 0 to 1.
+pub(super) fn share(logarithmic: bool, [low, high]: [f64; 2], number: f64) -> f64 {
+    let share =
+        if logarithmic { (number / low).ln() / (high / low).ln() } else { (number - low) / (high - low) };
+    if share.is_nan() { 0.0 } else { share.clamp(0.0, 1.0) }
+}
+
 /// Explains the last item, once the pointer has rested on it for a moment.
 pub(super) fn tooltip(ui: &Ui, help: &str) {
     let flags = ItemHoveredFlags::DELAY_NORMAL | ItemHoveredFlags::ALLOW_WHEN_DISABLED;
@@ -229,18 +236,6 @@ pub(super) fn combo(
     choices: impl FnOnce(&mut Layout),
 ) {
     ui.set_next_item_width(-1.0);
-    list(ui, name, shown, help, layout, choices);
-}
-
-/// Draws a drop-down list of the width that was set.
-pub(super) fn list(
-    ui: &Ui,
-    name: &'static str,
-    shown: &str,
-    help: &str,
-    layout: &mut Layout,
-    choices: impl FnOnce(&mut Layout),
-) {
     match ui.begin_combo(format!("##{name}"), shown) {
         Some(_open) => choices(layout),
         // While the list is open, the last item is an entry of it and not the list.
