@@ -1,4 +1,4 @@
-//! Storage images, which stay in the layout GENERAL.
+//! Images: storage images, which stay in the layout GENERAL, and those that fragment shaders sample.
 
 use super::buffer::{allocate, release};
 use super::{Device, check};
@@ -16,7 +16,7 @@ pub(super) const WHOLE: vk::ImageSubresourceRange = vk::ImageSubresourceRange {
     layer_count: 1,
 };
 
-/// A two-dimensional storage image with its memory and view. It must be cleared before its first use, with
+/// A two-dimensional image with its memory and view. A storage image must be cleared before its first use, with
 /// [`super::Recording::clear`], which also gives it its layout.
 pub struct Image {
     pub(super) raw: vk::Image,
@@ -33,7 +33,7 @@ impl Image {
     /// # Errors
     /// [`Error::Limit`](crate::error::Error::Limit) where the device has no images as wide or high.
     pub fn rgba32f(device: &Arc<Device>, name: &'static str, extent: [u32; 2]) -> Result<Self> {
-        Self::new(device, name, extent, vk::Format::R32G32B32A32_SFLOAT, 16)
+        Self::storage(device, name, extent, vk::Format::R32G32B32A32_SFLOAT, 16)
     }
 
     /// An image of one f32 a pixel.
@@ -41,7 +41,7 @@ impl Image {
     /// # Errors
     /// [`Error::Limit`](crate::error::Error::Limit) where the device has no images as wide or high.
     pub fn r32f(device: &Arc<Device>, name: &'static str, extent: [u32; 2]) -> Result<Self> {
-        Self::new(device, name, extent, vk::Format::R32_SFLOAT, 4)
+        Self::storage(device, name, extent, vk::Format::R32_SFLOAT, 4)
     }
 
     /// An image of four bytes a pixel. What they encode is up to the shaders: the format converts nothing.
@@ -49,7 +49,26 @@ impl Image {
     /// # Errors
     /// [`Error::Limit`](crate::error::Error::Limit) where the device has no images as wide or high.
     pub fn rgba8(device: &Arc<Device>, name: &'static str, extent: [u32; 2]) -> Result<Self> {
-        Self::new(device, name, extent, vk::Format::R8G8B8A8_UNORM, 4)
+        Self::storage(device, name, extent, vk::Format::R8G8B8A8_UNORM, 4)
+    }
+
+    /// An image of four bytes a pixel that fragment shaders sample.
+    pub(super) fn sampled(device: &Arc<Device>, name: &'static str, extent: [u32; 2]) -> Result<Self> {
+        let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
+        Self::new(device, name, extent, vk::Format::R8G8B8A8_UNORM, 4, usage)
+    }
+
+    fn storage(
+        device: &Arc<Device>,
+        name: &'static str,
+        extent: [u32; 2],
+        format: vk::Format,
+        bytes_per_pixel: u64,
+    ) -> Result<Self> {
+        let usage = vk::ImageUsageFlags::STORAGE
+            | vk::ImageUsageFlags::TRANSFER_SRC
+            | vk::ImageUsageFlags::TRANSFER_DST;
+        Self::new(device, name, extent, format, bytes_per_pixel, usage)
     }
 
     fn new(
@@ -58,6 +77,7 @@ impl Image {
         extent: [u32; 2],
         format: vk::Format,
         bytes_per_pixel: u64,
+        usage: vk::ImageUsageFlags,
     ) -> Result<Self> {
         device.limits.check_image(name, extent)?;
         let [width, height] = extent;
@@ -69,11 +89,7 @@ impl Image {
             .array_layers(1)
             .samples(vk::SampleCountFlags::TYPE_1)
             .tiling(vk::ImageTiling::OPTIMAL)
-            .usage(
-                vk::ImageUsageFlags::STORAGE
-                    | vk::ImageUsageFlags::TRANSFER_SRC
-                    | vk::ImageUsageFlags::TRANSFER_DST,
-            );
+            .usage(usage);
         // SAFETY: the device is valid. The handle is owned by `image` before anything else can fail.
         let raw = check("creating an image", unsafe { device.raw.create_image(&info, None) })?;
         let mut image = Self {

@@ -1,30 +1,22 @@
 //! Pictures that imgui's renderer draws.
 
-use super::buffer::{allocate, release};
 use super::command::LAYER;
 use super::image::WHOLE;
-use super::{Buffer, Commands, Device, Residence, check};
+use super::{Buffer, Commands, Device, Image, Residence, check};
 use crate::error::Result;
 use ash::vk;
-use gpu_allocator::MemoryLocation;
-use gpu_allocator::vulkan::Allocation;
 use std::sync::Arc;
 
 /// A picture of four bytes a pixel, with the descriptor set by which imgui's renderer reads it. The renderer must be
 /// dropped before it.
 pub struct Texture {
-    raw: vk::Image,
-    view: vk::ImageView,
+    image: Image,
     sampler: vk::Sampler,
     layout: vk::DescriptorSetLayout,
     pool: vk::DescriptorPool,
     set: vk::DescriptorSet,
-    allocation: Option<Allocation>,
     device: Arc<Device>,
 }
-
-/// imgui's colours are those of the screen, so the format converts nothing.
-const FORMAT: vk::Format = vk::Format::R8G8B8A8_UNORM;
 
 impl Texture {
     /// Uploads a picture, row by row from the top left, and waits until it is there.
@@ -32,18 +24,15 @@ impl Texture {
     /// # Errors
     /// [`Error::Limit`](crate::error::Error::Limit) where the device has no images as wide or high.
     pub fn new(device: &Arc<Device>, name: &'static str, extent: [u32; 2], rgba: &[[u8; 4]]) -> Result<Self> {
-        device.limits.check_image(name, extent)?;
         let mut texture = Self {
-            raw: vk::Image::null(),
-            view: vk::ImageView::null(),
+            // imgui's colours are those of the screen, so the format converts nothing.
+            image: Image::sampled(device, name, extent)?,
             sampler: vk::Sampler::null(),
             layout: vk::DescriptorSetLayout::null(),
             pool: vk::DescriptorPool::null(),
             set: vk::DescriptorSet::null(),
-            allocation: None,
             device: Arc::clone(device),
         };
-        texture.make_image(name, extent)?;
         texture.make_set()?;
         texture.fill(extent, rgba)?;
         Ok(texture)
@@ -52,38 +41,6 @@ impl Texture {
     /// What imgui's renderer knows the picture by.
     pub fn descriptor_set(&self) -> vk::DescriptorSet {
         self.set
-    }
-
-    fn make_image(&mut self, name: &'static str, [width, height]: [u32; 2]) -> Result<()> {
-        let device = &self.device;
-        let info = vk::ImageCreateInfo::default()
-            .image_type(vk::ImageType::TYPE_2D)
-            .format(FORMAT)
-            .extent(vk::Extent3D { width, height, depth: 1 })
-            .mip_levels(1)
-            .array_layers(1)
-            .samples(vk::SampleCountFlags::TYPE_1)
-            .tiling(vk::ImageTiling::OPTIMAL)
-            .usage(vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST);
-        // SAFETY: the device is valid. `self` owns the handle before anything else can fail.
-        self.raw = check("creating a texture", unsafe { device.raw.create_image(&info, None) })?;
-        // SAFETY: raw is an image of this device.
-        let requirements = unsafe { device.raw.get_image_memory_requirements(self.raw) };
-        let allocation = allocate(device, name, requirements, MemoryLocation::GpuOnly, false)?;
-        // SAFETY: the memory was allocated for this image's requirements and is bound once.
-        let bound =
-            unsafe { device.raw.bind_image_memory(self.raw, allocation.memory(), allocation.offset()) };
-        self.allocation = Some(allocation);
-        check("binding a texture's memory", bound)?;
-        let info = vk::ImageViewCreateInfo::default()
-            .image(self.raw)
-            .view_type(vk::ImageViewType::TYPE_2D)
-            .format(FORMAT)
-            .subresource_range(WHOLE);
-        // SAFETY: the image is bound and has this format.
-        self.view = check("creating a texture's view", unsafe { device.raw.create_image_view(&info, None) })?;
-        device.set_name(self.raw, name);
-        Ok(())
     }
 
     /// Makes the descriptor set, in the layout of imgui's renderer: one picture for the fragment shader.
@@ -117,7 +74,7 @@ impl Texture {
             self.set = check("allocating a descriptor set", raw.allocate_descriptor_sets(&sets))?[0];
             let image = [vk::DescriptorImageInfo::default()
                 .sampler(self.sampler)
-                .image_view(self.view)
+                .image_view(self.image.view)
                 .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)];
             let write =
                 vk::WriteDescriptorSet::default().dst_set(self.set).descriptor_type(kind).image_info(&image);
@@ -132,7 +89,7 @@ impl Texture {
         staging.write(bytes);
         let mut commands = Commands::new(&self.device)?;
         let mut recording = commands.begin()?;
-        let barrier = || vk::ImageMemoryBarrier2::default().image(self.raw).subresource_range(WHOLE);
+        let barrier = || vk::ImageMemoryBarrier2::default().image(self.image.raw).subresource_range(WHOLE);
         let written = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
         let before = [barrier()
             .new_layout(written)
@@ -149,7 +106,7 @@ impl Texture {
             self.device.raw.cmd_copy_buffer_to_image(
                 recording.raw(),
                 staging.raw,
-                self.raw,
+                self.image.raw,
                 written,
                 &region,
             );
@@ -174,9 +131,6 @@ impl Drop for Texture {
             self.device.raw.destroy_descriptor_pool(self.pool, None);
             self.device.raw.destroy_descriptor_set_layout(self.layout, None);
             self.device.raw.destroy_sampler(self.sampler, None);
-            self.device.raw.destroy_image_view(self.view, None);
-            self.device.raw.destroy_image(self.raw, None);
         }
-        release(&self.device, self.allocation.take());
     }
 }
