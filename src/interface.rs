@@ -220,6 +220,8 @@ pub mod integrator {
     numbered! {
         /// Whitted's integrator: direct light with hard shadows, ambient light, and mirrors.
         WHITTED,
+        /// Path tracing: light that arrives by any number of reflections.
+        PATH,
     }
 }
 

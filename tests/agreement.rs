@@ -10,6 +10,7 @@ use glam::DVec3;
 use std::f64::consts::TAU;
 use std::ops::Range;
 use thinlens::reference::Reference;
+use thinlens::reference::integrator::whitted::radiance;
 use thinlens::settings::{Sampler, Settings};
 use thinlens::verify::{Agreement, verify};
 
@@ -122,7 +123,8 @@ fn independent_picture(
             let [square, turn] = lens([random.f64(), random.f64()], film);
             let (radius, angle) = (square.sqrt(), TAU * turn);
             let disk = [radius * angle.cos(), radius * angle.sin()];
-            sum += reference.trace(pixel, film.map(|value| value - 0.5), disk, 0.0).radiance;
+            let ray = reference.primary_ray(pixel, film.map(|value| value - 0.5), disk, 0.0);
+            sum += radiance(&estimator.scene, ray, estimator.max_bounces);
         }
         (sum / f64::from(settings.samples)).to_array()
     };

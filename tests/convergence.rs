@@ -17,7 +17,7 @@ fn blurred(settings: &Settings) -> Vec<bool> {
     let reference = Reference::new(estimator);
     pixels(estimator.size)
         .map(|pixel| {
-            let ray = reference.trace(pixel, [0.0, 0.0], [0.0, 0.0], 0.0).ray;
+            let ray = reference.primary_ray(pixel, [0.0, 0.0], [0.0, 0.0], 0.0);
             intersect(&estimator.scene, ray, 0.0).is_some_and(|hit| {
                 let depth = hit.distance * ray.direction.dot(-camera.frame().w());
                 circle_of_confusion(diameter, focal_distance, depth, k) > 2.0

@@ -204,7 +204,7 @@ fn what_needs_too_many_steps_is_refused_before_it_is_compiled() {
         return; // A GPU has no such limit.
     }
     // No driver is given this.
-    let trace = Shader { name: "trace", spirv: &[] };
+    let trace = [Shader { name: "trace", spirv: &[] }; 2];
     let shaders = Shaders { trace, ..Shaders::default() };
     // So many lights that the shapes are few enough for every device's buffers.
     let lights = "[[directional]]\ndirection = [1, 2, 3]\nradiance = 2\n".repeat(3);

@@ -89,7 +89,7 @@ fn a_tilted_lens_is_sharp_in_the_plane_through_the_hinge_line() {
                 let rim = 2.0 * widest / f64::from(lens.diameter);
                 ensure!((rim - 1.0).abs() < 1e-5, "{degrees} degrees: the lens is {rim} times as wide");
                 for disk in [[1.0, 0.0], [0.0, -1.0], [-0.6, 0.8]] {
-                    let ray = reference.trace(position.map(|at| at as u32), [0.0; 2], disk, 0.0).ray;
+                    let ray = reference.primary_ray(position.map(|at| at as u32), [0.0; 2], disk, 0.0);
                     worst_oracle = worst_oracle.max(beside(ray.origin, ray.direction));
                     ensure!(
                         worst_oracle < 1e-9,
@@ -228,7 +228,7 @@ fn a_tilted_lens_is_focused_on_a_place() {
             let offset = [at[0] - 0.5 - f64::from(pixel[0]), at[1] - 0.5 - f64::from(pixel[1])];
             let reference = Reference::new(&focused.estimator);
             for disk in [[1.0, 0.0], [0.0, 1.0], [-0.6, -0.8]] {
-                let ray = reference.trace(pixel, offset, disk, 0.0).ray;
+                let ray = reference.primary_ray(pixel, offset, disk, 0.0);
                 let beside = (surface.point - ray.origin).cross(ray.direction).length() / surface.depth * k;
                 assert!(beside < 2e-3, "{pixel:?}: a ray passes {beside} px beside");
             }
@@ -261,7 +261,7 @@ fn the_circle_of_a_tilted_lens_is_as_wide_as_is_said() {
             let of = |x: f64| {
                 let pixel = [30, 20];
                 let offset = [x - 0.5, 20.0 - up * k - 20.5];
-                reference.trace(pixel, offset, [1.0, 0.0], 0.0).ray
+                reference.primary_ray(pixel, offset, [1.0, 0.0], 0.0)
             };
             let miss = |x: f64| {
                 let ray = of(x);

@@ -1,11 +1,10 @@
-// One pixel's batch of samples: the body of the trace pass.
+// One pixel's batch of samples: the body of the trace pass. The shader includes its integrator first.
 
 #ifndef TRACE_BATCH_GLSL
 #define TRACE_BATCH_GLSL
 
 #include "camera/thin_lens.glsl"
 #include "core/adaptive.glsl"
-#include "integrator/whitted.glsl"
 #include "aperture/aperture.glsl"
 
 struct TracePush {

@@ -77,7 +77,7 @@ vec3 radiance(Ray ray, const PathSampler path, const uint max_bounces, inout uin
         Material material = get_material(hit.material);
         vec3 color = texture_value(material.color, at);
         sum += throughput * shade(material, color, at, -ray.direction, rays, given_up);
-        Scatter scatter = material_sample(material, color, at, ray.direction);
+        Scatter scatter = material_mirrored(material, color, at, -ray.direction);
         throughput *= scatter.weight;
         if (throughput == vec3(0.0)) {
             break;

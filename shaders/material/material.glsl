@@ -41,10 +41,20 @@ vec3 material_f(
     return value;
 }
 
-// The weight is zero if the material scatters no light in a single direction.
-Scatter material_sample(const Material material, const vec3 color, const SurfacePoint at, const vec3 direction) {
-    Scatter value = Scatter(vec3(0.0), vec3(0.0));
-#define SAMPLE(KIND, kind_) IF_MATERIAL(KIND) { value = kind_##_sample(material, color, at, direction); }
+// The weight is zero if the material shows no mirror image.
+Scatter material_mirrored(const Material material, const vec3 color, const SurfacePoint at, const vec3 to_viewer) {
+    Scatter value = NO_SCATTER;
+#define MIRRORED(KIND, kind_) IF_MATERIAL(KIND) { value = kind_##_mirrored(material, color, at, to_viewer); }
+    FOR_EACH_MATERIAL_MIRRORED(MIRRORED)
+    return value;
+}
+
+// The weight is zero if the material scatters no light.
+Scatter material_sample(
+    const Material material, const vec3 color, const SurfacePoint at, const vec3 to_viewer, const vec3 xi
+) {
+    Scatter value = NO_SCATTER;
+#define SAMPLE(KIND, kind_) IF_MATERIAL(KIND) { value = kind_##_sample(material, color, at, to_viewer, xi); }
     FOR_EACH_MATERIAL_SAMPLE(SAMPLE)
     return value;
 }

@@ -3,6 +3,7 @@
 #ifndef MATTE_GLSL
 #define MATTE_GLSL
 
+#include "core/sampling.glsl"
 #include "scene/surface.glsl"
 
 const float INVERSE_PI = 0.318309886;
@@ -16,6 +17,18 @@ vec3 matte_f(
     const vec3 to_viewer
 ) {
     return material.kd * INVERSE_PI * color;
+}
+
+// The density of the directions is proportional to their cosine: they lie above even points of the unit disc (N. Malley;
+// Pharr, Jakob and Humphreys, Physically Based Rendering, "Sampling Functions").
+Scatter matte_sample(
+    const Material material, const vec3 color, const SurfacePoint at, const vec3 to_viewer, const vec3 xi
+) {
+    vec2 disk = concentric_disk(xi.xy);
+    float height = sqrt(larger(1.0 - dot(disk, disk), 0.0));
+    vec3 direction = around_normal(at.shading_normal, vec3(disk, height));
+    // Where the normals of a mesh are smoothed, a direction may lead below the surface. No light comes from there.
+    return Scatter(direction, dot(direction, at.normal) > 0.0 ? material.kd * color : vec3(0.0));
 }
 
 #endif

@@ -12,11 +12,18 @@ vec3 mirror_f(
     return vec3(phong_highlight(material, at, to_light, to_viewer));
 }
 
-Scatter mirror_sample(const Material material, const vec3 color, const SurfacePoint at, const vec3 direction) {
-    vec3 mirrored = reflect(direction, at.shading_normal);
+Scatter mirror_mirrored(const Material material, const vec3 color, const SurfacePoint at, const vec3 to_viewer) {
+    vec3 mirrored = reflect(-to_viewer, at.shading_normal);
     // A direction that would enter the surface is mirrored out of the surface again.
     mirrored -= 2.0 * smaller(dot(mirrored, at.normal), 0.0) * at.normal;
     return Scatter(mirrored, color);
+}
+
+// There is one direction only.
+Scatter mirror_sample(
+    const Material material, const vec3 color, const SurfacePoint at, const vec3 to_viewer, const vec3 xi
+) {
+    return mirror_mirrored(material, color, at, to_viewer);
 }
 
 #endif

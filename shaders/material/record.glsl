@@ -7,8 +7,10 @@
 //       The share of the ambient light that the material reflects.
 //   vec3 KIND_f(Material material, vec3 color, SurfacePoint at, vec3 to_light, vec3 to_viewer)
 //       The BRDF: the radiance reflected towards the viewer, divided by the light's radiance and by the cosine.
-//   Scatter KIND_sample(Material material, vec3 color, SurfacePoint at, vec3 direction)
-//       The direction in which a ray with this direction goes on after it has met the material.
+//   Scatter KIND_mirrored(Material material, vec3 color, SurfacePoint at, vec3 to_viewer)
+//       The direction of the mirror image that the viewer sees.
+//   Scatter KIND_sample(Material material, vec3 color, SurfacePoint at, vec3 to_viewer, vec3 xi)
+//       A random direction from which light is scattered towards the viewer, chosen by three values in [0, 1).
 //
 // color is the value of the material's texture at the point. face_forward() has turned the normals at the point.
 
@@ -28,11 +30,14 @@ struct Material {
     uint kind;
 };
 
-// The direction in which a ray goes on, and the weight of the radiance that arrives from there.
+// A direction from which light comes that is scattered towards the viewer, and the weight of its radiance: of a random
+// direction, the BRDF times the cosine, divided by the probability density.
 struct Scatter {
     vec3 direction;
     vec3 weight;
 };
+
+const Scatter NO_SCATTER = Scatter(vec3(0.0), vec3(0.0));
 
 // The kinds of materials in the scene, a bit for each: the code for all other kinds is left out.
 layout(constant_id = ID_MATERIAL_KINDS) const uint MATERIAL_KINDS = 0u;

@@ -30,4 +30,9 @@ SurfacePoint surface_point(const Ray ray, const Hit hit) {
     return at;
 }
 
+// Where a ray in this direction starts: off the surface, on the side that the direction points to.
+vec3 start_towards(const SurfacePoint at, const vec3 direction) {
+    return at.position + (dot(direction, at.normal) < 0.0 ? -at.error : at.error) * at.normal;
+}
+
 #endif

@@ -37,16 +37,29 @@ struct Surface {
     vec2 uv; // surface coordinates, as the kind defines them
 };
 
-// The coordinates of a vector along two tangents, which are perpendicular to a unit normal. They are the world's axes x
+// Two tangents, which are perpendicular to a unit normal and to each other. They are the world's axes x
 // and z, turned as the normal is turned from the vertical. T. Duff et al., "Building an Orthonormal Basis, Revisited",
 // JCGT 6(1), 2017, with y upwards.
-vec2 tangent_coordinates(const vec3 n, const vec3 vector) {
+void find_tangents(const vec3 n, out vec3 first, out vec3 second) {
     float up = n.y < 0.0 ? -1.0 : 1.0;
     float a = -1.0 / (up + n.y);
     float b = n.x * n.z * a;
-    vec3 first = vec3(1.0 + up * n.x * n.x * a, -up * n.x, up * b);
-    vec3 second = up * vec3(b, -n.z, up + n.z * n.z * a);
+    first = vec3(1.0 + up * n.x * n.x * a, -up * n.x, up * b);
+    second = up * vec3(b, -n.z, up + n.z * n.z * a);
+}
+
+// The coordinates of a vector along these tangents.
+vec2 tangent_coordinates(const vec3 n, const vec3 vector) {
+    vec3 first, second;
+    find_tangents(n, first, second);
     return vec2(dot(first, vector), dot(second, vector));
+}
+
+// The vector with these coordinates along the tangents of a unit normal, and along the normal.
+vec3 around_normal(const vec3 n, const vec3 coordinates) {
+    vec3 first, second;
+    find_tangents(n, first, second);
+    return coordinates.x * first + coordinates.y * second + coordinates.z * n;
 }
 
 const Surface NO_SURFACE = Surface(vec3(0.0), 0.0, false, 0.0, vec3(0.0), vec2(0.0));

@@ -3,9 +3,10 @@
 
 use super::Camera;
 use crate::interface::DISPERSION;
-use crate::scene::{Frame, Plane, Scene};
+use crate::scene::{Frame, Integrator, Plane, Scene};
 use crate::settings::Estimator;
 use glam::{DQuat, DVec2, DVec3, Vec3};
+use std::f64::consts::PI;
 
 /// An upper bound for the luminance that a pixel's rays can meet, for each cell of a grid over the picture.
 ///
@@ -40,7 +41,7 @@ impl Brightest {
     pub fn new(estimator: &Estimator) -> Self {
         let [cell, columns, rows] = Self::grid(estimator.size);
         let scene = &*estimator.scene;
-        let of_materials = luminances(scene, estimator.max_bounces);
+        let of_materials = luminances(estimator);
         let sky = luminance(sky(scene)) as f32;
         let mut grid = Self { luminances: vec![sky; (columns * rows) as usize], cell, columns };
         // Three colours may come from three things.
@@ -95,8 +96,13 @@ fn sky(scene: &Scene) -> DVec3 {
 }
 
 /// The highest luminance that each material can show, by its own light or as a mirror of the brightest thing.
-fn luminances(scene: &Scene, max_bounces: u32) -> Vec<f32> {
-    let light: DVec3 = scene.lights.iter().map(|light| light.radiance.as_dvec3()).sum();
+fn luminances(estimator: &Estimator) -> Vec<f32> {
+    let (scene, max_bounces) = (&*estimator.scene, estimator.max_bounces);
+    let light: DVec3 = match estimator.integrator {
+        Integrator::Whitted => scene.lights.iter().map(|light| light.radiance.as_dvec3()).sum(),
+        // The light of the whole sky. That of lamps comes with every sample.
+        Integrator::Path => PI * sky(scene),
+    };
     let own: Vec<DVec3> =
         scene.materials.iter().map(|material| material.brightest(light, scene.ambient.as_dvec3())).collect();
     let mut seen = own.clone();

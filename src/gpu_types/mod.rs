@@ -17,8 +17,8 @@ pub use material::{Material, Texture};
 pub use scene::{SceneBlock, SceneColors, SceneCounts, SceneData};
 pub use shape::ShapeRecord;
 
-use crate::interface::{GROUP_SIZE, constant, sampler};
-use crate::scene::CameraModel;
+use crate::interface::{GROUP_SIZE, constant, integrator, sampler};
+use crate::scene::{CameraModel, Integrator};
 use crate::settings::{Estimator, Sampler, Settings};
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, UVec2};
@@ -222,6 +222,14 @@ pub fn lens_constants(estimator: &Estimator) -> [(u32, u32); 6] {
 pub fn movements_constant(estimator: &Estimator) -> (u32, u32) {
     let moved = estimator.focal_plane().slope != DVec2::ZERO || estimator.camera.shift() != DVec2::ZERO;
     (constant::HAS_MOVEMENTS, (moved && estimator.model == CameraModel::ThinLens).into())
+}
+
+/// The number of an integrator in [`crate::interface::integrator`].
+pub fn integrator_number(of: Integrator) -> u32 {
+    match of {
+        Integrator::Whitted => integrator::WHITTED,
+        Integrator::Path => integrator::PATH,
+    }
 }
 
 /// `SAMPLER` of sampling.glsl.

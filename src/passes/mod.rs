@@ -30,8 +30,8 @@ use crate::vulkan::Shader;
 /// The shaders of the passes. Tests replace them by shaders with a planted fault, and expect to find it.
 #[derive(Debug, Clone, Copy)]
 pub struct Shaders {
-    /// Pass 1, which traces a batch of samples.
-    pub trace: Shader,
+    /// Pass 1, which traces a batch of samples, for each [integrator](crate::interface::integrator).
+    pub trace: [Shader; 2],
     /// Pass 2, which merges the batch into the film.
     pub accumulate: Shader,
     /// The pass between batches of an adaptive picture, which lists the pixels to go on with.
@@ -47,7 +47,7 @@ pub struct Shaders {
 impl Default for Shaders {
     fn default() -> Self {
         Self {
-            trace: Trace::SHADER,
+            trace: Trace::SHADERS,
             accumulate: Accumulate::SHADER,
             select: Select::SHADER,
             resolve: Resolve::SHADER,

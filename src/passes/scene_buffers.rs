@@ -122,23 +122,29 @@ impl SceneBuffers {
         self.tree_depth > 0
     }
 
-    /// The most rays that one sample can need: for each surface, one that reaches it and one from there to each light.
-    pub fn max_rays(&self, max_bounces: u32) -> u32 {
-        self.max_surfaces(max_bounces).saturating_mul(1 + self.counts.lights)
+    /// Whether any material mirrors.
+    pub fn reflects(&self) -> bool {
+        self.reflects
     }
 
-    /// The most iterations that the loops of the trace pass can make for one sample: over shapes for each ray,
-    /// over lights and reflections, and in the sampler.
-    pub fn max_loop_steps(&self, max_bounces: u32) -> u64 {
+    /// The most rays that one sample can need, if rays bounce so often: for each surface, one that reaches it and one
+    /// from there to each light.
+    pub fn max_rays(&self, bounces: u32) -> u32 {
+        (1 + bounces).saturating_mul(1 + self.counts.lights)
+    }
+
+    /// The most iterations that the loops of the trace pass can make for one sample, if rays bounce so often: over
+    /// shapes for each ray, over lights and bounces, and in the sampler.
+    pub fn max_loop_steps(&self, bounces: u32) -> u64 {
         let too_deep = u64::from(self.tree_depth.saturating_sub(SPELLED_OUT_STACK));
         let tree = u64::from(self.counts.max_tree_steps) * (1 + too_deep);
         let shapes = u64::from(self.listed_shapes()) + tree;
         let lights = u64::from(self.counts.lights);
-        SAMPLER_LOOP_STEPS + u64::from(self.max_surfaces(max_bounces)) * (1 + shapes + lights * (1 + shapes))
+        SAMPLER_LOOP_STEPS + (1 + u64::from(bounces)) * (1 + shapes + lights * (1 + shapes))
     }
 
     /// Explains [`SceneBuffers::max_loop_steps`] in words, for an error message.
-    pub fn explain_max_loop_steps(&self, max_bounces: u32) -> String {
+    pub fn explain_max_loop_steps(&self, bounces: u32) -> String {
         // The range of the unbounded kinds is the last.
         let bounded = self.counts.list_ends[shape::FIRST_UNBOUNDED as usize - 1];
         let planes = self.listed_shapes() - bounded;
@@ -146,10 +152,9 @@ impl SceneBuffers {
             0 => format!("up to {} steps in the tree of shapes", self.counts.max_tree_steps),
             listed => format!("{listed} shapes"),
         };
-        let reflections = self.max_surfaces(max_bounces) - 1;
         let lights = self.counts.lights;
         format!(
-            "{reflections} reflections (--max-bounces), {lights} lights at each surface, and for every ray {planes} \
+            "{bounces} bounces (--max-bounces), {lights} lights at each surface, and for every ray {planes} \
              planes and {shapes}"
         )
     }
@@ -157,10 +162,6 @@ impl SceneBuffers {
     /// The number of shapes in the list.
     fn listed_shapes(&self) -> u32 {
         self.counts.list_ends[shape::NAMES.len() - 1]
-    }
-
-    fn max_surfaces(&self, max_bounces: u32) -> u32 {
-        if self.reflects { 1 + max_bounces } else { 1 }
     }
 
     /// Every binding of `shaders/scene/scene.glsl` and `bvh.glsl`.

@@ -7,15 +7,15 @@ use crate::interface::binding;
 use crate::vulkan::{Binding, BindingSet, Buffer, ComputePipeline, Device, Image, Recording, Shader, shader};
 use std::sync::Arc;
 
-/// Pass 1. See `shaders/trace.comp`.
+/// Pass 1. See `shaders/core/trace_pass.glsl`.
 pub struct Trace {
     pipeline: ComputePipeline,
     tile: BlueNoiseTile,
 }
 
 impl Trace {
-    /// The shader.
-    pub const SHADER: Shader = shader!("trace");
+    /// The shader of each integrator.
+    pub const SHADERS: [Shader; 2] = [shader!("trace"), shader!("trace_path")];
 
     /// Compiles the pass from its shader, or one with the same interface, for the constants of an
     /// estimator and a scene.

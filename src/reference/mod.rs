@@ -24,6 +24,7 @@ use crate::settings::Estimator;
 use camera::Projection;
 use film::Film;
 use glam::DVec3;
+use integrator::Limits;
 
 /// The colour for which a lens is in focus, by its number.
 const GREEN: usize = 1;
@@ -77,35 +78,26 @@ impl<'a> Reference<'a> {
         } else {
             0.0
         };
+        let Estimator { scene, sampler, seed, .. } = estimator;
+        let values = |bounce, of| sampler::path_values(*sampler, *seed, pixel, index, bounce, of);
+        let limits = Limits::of(estimator);
+        let ray = |color: usize| self.projection.primary_ray(pixel, offset, point, time, color);
+        let radiance = |ray: Ray| integrator::radiance(scene, ray, &limits, &values);
         let has_colors = estimator.model == CameraModel::ThinLens && estimator.lens.abbe_number > 0;
-        let mut sample = self.trace(pixel, offset, point, time);
-        if has_colors {
+        let seen = if has_colors {
             // Each colour goes its own way.
-            let of = |color: usize| self.trace_color(pixel, offset, point, time, color).radiance[color];
-            sample.radiance = DVec3::new(of(0), of(1), of(2));
-        }
-        Sample { radiance: share * sample.radiance, ..sample }
+            let of = |color: usize| radiance(ray(color))[color];
+            DVec3::new(of(0), of(1), of(2))
+        } else {
+            radiance(ray(GREEN))
+        };
+        Sample { ray: ray(GREEN), offset, radiance: share * seen }
     }
 
-    /// The sample of the film position at `offset` pixels from this pixel's centre and of the point `disk` of the
-    /// lens, whose radius is one. `time` is in seconds from the middle of the exposure.
-    pub fn trace(&self, pixel: [u32; 2], offset: [f64; 2], disk: [f64; 2], time: f64) -> Sample {
-        self.trace_color(pixel, offset, disk, time, GREEN)
-    }
-
-    /// The same for light of a colour, by its number.
-    fn trace_color(
-        &self,
-        pixel: [u32; 2],
-        offset: [f64; 2],
-        disk: [f64; 2],
-        time: f64,
-        color: usize,
-    ) -> Sample {
-        let ray = self.projection.primary_ray(pixel, offset, disk, time, color);
-        let scene = &*self.estimator.scene;
-        let radiance = integrator::whitted::radiance(scene, ray, self.estimator.max_bounces);
-        Sample { ray, offset, radiance }
+    /// The primary ray through the film position at `offset` pixels from this pixel's centre and through the point `disk`
+    /// of the lens, whose radius is one. `time` is in seconds from the middle of the exposure.
+    pub fn primary_ray(&self, pixel: [u32; 2], offset: [f64; 2], disk: [f64; 2], time: f64) -> Ray {
+        self.projection.primary_ray(pixel, offset, disk, time, GREEN)
     }
 
     /// The film after samples `0 .. count` of every pixel: mean r, g, b and count, row by row from

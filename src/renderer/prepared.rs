@@ -3,12 +3,12 @@
 
 use super::schedule::{self, LARGEST_BATCH};
 use crate::error::{Error, Result};
-use crate::gpu_types::{Counters, SceneColors, SceneData, aperture_sums, film_constants, lens_constants};
+use crate::gpu_types::{Counters, SceneColors, SceneData, aperture_sums, film_constants, integrator_number, lens_constants};
 use crate::passes::{
     Accumulate, ApertureBuffers, BlueNoiseTile, Geometry, Pick, Resolve, ResolveKind, SceneBuffers, Select,
     Shaders, Trace,
 };
-use crate::scene::{ApertureImage, Overlay, SceneRef, Stage};
+use crate::scene::{ApertureImage, Integrator, Overlay, SceneRef, Stage};
 use crate::settings::{Estimator, Settings};
 use crate::vulkan::{Buffer, Device, Residence};
 use std::sync::Arc;
@@ -51,6 +51,8 @@ pub struct Keys {
     lens: [(u32, u32); 6],
     /// The constants of the passes that work on the film alone.
     film: [(u32, u32); 2],
+    /// The number of the integrator.
+    integrator: u32,
     is_adaptive: bool,
     overlay: Option<ResolveKind>,
     shows_surface: bool,
@@ -89,6 +91,7 @@ impl Keys {
             aperture: estimator.aperture.image.clone(),
             lens: lens_constants(estimator),
             film: film_constants(estimator),
+            integrator: integrator_number(estimator.integrator),
             is_adaptive: estimator.is_adaptive(),
             overlay: view.overlay.map(|_| ResolveKind::Overlay { has_moments }),
             shows_surface: view.overlay.is_some_and(Overlay::shows_surface),
@@ -140,12 +143,14 @@ impl Preparer {
         // A driver compiles a pipeline on the thread that asks for it. The passes that trace rays take longest.
         let same_scene = old.filter(|old| old.scene.constants() == scene.constants());
         let same_lens = same_scene.filter(|old| old.keys.lens == keys.lens);
+        let same_trace = same_lens.filter(|old| old.keys.integrator == keys.integrator);
         let same_film = old.filter(|old| old.keys.film == keys.film);
         let same_overlay = old.filter(|old| old.keys.overlay == keys.overlay);
         let (trace, pick, geometry, accumulate, select, resolve_overlay) = std::thread::scope(|scope| {
             let trace = scope.spawn(|| {
-                share_or(same_lens.map(|old| &old.trace), || {
-                    Trace::new(device, shaders.trace, &keys.lens, &scene, tile)
+                share_or(same_trace.map(|old| &old.trace), || {
+                    let shader = shaders.trace[keys.integrator as usize];
+                    Trace::new(device, shader, &keys.lens, &scene, tile)
                 })
             });
             let pick = scope.spawn(|| {
@@ -179,7 +184,8 @@ impl Preparer {
     pub(super) fn largest_batch(&self, scene: &SceneBuffers, estimator: &Estimator) -> Result<u32> {
         // With colour errors, a sample has three rays.
         let rays = if estimator.dispersion() == 0.0 { 1 } else { 3 };
-        let steps = rays * scene.max_loop_steps(estimator.max_bounces);
+        let bounces = most_bounces(scene, estimator);
+        let steps = rays * scene.max_loop_steps(bounces);
         let Some(most) = self.device.traits().max_loop_steps else {
             return Ok(LARGEST_BATCH);
         };
@@ -187,7 +193,7 @@ impl Preparer {
             Error::OutOfRange(format!(
                 "the scene can take {steps} steps a sample, but software devices stop at {most}: {}; use fewer of \
                  these, or a GPU",
-                scene.explain_max_loop_steps(estimator.max_bounces)
+                scene.explain_max_loop_steps(bounces)
             ))
         })
     }
@@ -221,6 +227,12 @@ impl Prepared {
     pub fn answers(&self) -> bool {
         self.keys.answers
     }
+}
+
+/// How often a ray can bounce in this scene.
+pub(super) fn most_bounces(scene: &SceneBuffers, estimator: &Estimator) -> u32 {
+    let bounces = estimator.integrator == Integrator::Path || scene.reflects();
+    if bounces { estimator.max_bounces } else { 0 }
 }
 
 /// What the thread returns. A panic goes on in this one.

@@ -2,6 +2,7 @@
 
 use super::film::Seen;
 use super::loaded::Loaded;
+use super::prepared::most_bounces;
 use super::schedule::{Stage, reach};
 use super::tally::Work;
 use super::tiles::Tile;
@@ -35,7 +36,8 @@ impl Renderer {
 
     fn record_tiles(&mut self, recording: &mut Recording<'_>, pace: Pace) -> Work {
         // The rays of a submission are counted in 32 bits.
-        let max_rays = self.loaded.prepared.scene.max_rays(self.settings.estimator.max_bounces);
+        let scene = &self.loaded.prepared.scene;
+        let max_rays = scene.max_rays(most_bounces(scene, &self.settings.estimator));
         let budget = self.tally.work_within(pace.budget).min(u64::from(u32::MAX / max_rays));
         let mut left = budget;
         let mut done = Work::default();

@@ -8,6 +8,7 @@ mod clusters;
 mod crease;
 mod file;
 mod in_view;
+mod integrator;
 mod light;
 mod material;
 mod mesh;
@@ -33,6 +34,7 @@ pub use bvh::{Bvh, Node, Record};
 pub use camera::*;
 pub use file::{Loaded, load, load_with_text};
 pub use in_view::{Depths, Extents};
+pub use integrator::Integrator;
 pub use light::*;
 pub use material::*;
 pub use movements::FocalPlane;
@@ -53,7 +55,7 @@ use std::sync::Arc;
 
 /// The largest width and height of a picture, in pixels.
 pub const MAX_EXTENT: u32 = 16384;
-/// The largest number of reflections that can be followed.
+/// The largest number of bounces that can be followed.
 pub const MAX_BOUNCES: u32 = 64;
 
 /// The time that the shutter is open, in seconds.
@@ -92,7 +94,9 @@ pub struct Scene {
     /// How the picture is shown by default. The exposure is relative to the lens and the shutter above and to the speed
     /// of the film given here.
     pub view: View,
-    /// The default number of mirror reflections that are followed.
+    /// The integrator that the scene is made for.
+    pub integrator: Integrator,
+    /// The default number of bounces: see [`crate::settings::Estimator::max_bounces`].
     pub max_bounces: u32,
     /// What is seen where a ray hits nothing.
     pub background: Background,

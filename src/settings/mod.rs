@@ -22,7 +22,7 @@ pub use sweep::Sweep;
 
 use crate::error::{Error, Result};
 use crate::scene::{
-    Aperture, Camera, CameraModel, FocalPlane, FullScale, Hole, Lens, Overlay, Preset, SceneRef, Source,
+    Aperture, Camera, CameraModel, FocalPlane, FullScale, Hole, Integrator, Lens, Overlay, Preset, SceneRef, Source,
     Stage, View, in_range,
 };
 use std::path::Path;
@@ -80,7 +80,9 @@ pub struct Estimator {
     pub size: [u32; 2],
     /// The width of the square around a pixel's centre that its samples fall in, in pixels.
     pub jitter: f32,
-    /// The number of mirror reflections that are followed.
+    /// What finds the radiance along a ray.
+    pub integrator: Integrator,
+    /// How often light is scattered on its way from a lamp or the sky to the lens. `whitted` counts mirrors only.
     pub max_bounces: u32,
     /// How sample values are made.
     pub sampler: Sampler,
@@ -211,6 +213,7 @@ impl Settings {
                 aperture: scene.aperture.clone(),
                 shutter: scene.shutter,
                 size: scene.size,
+                integrator: scene.integrator,
                 max_bounces: scene.max_bounces,
                 jitter: DEFAULT_JITTER,
                 sampler: Sampler::default(),
@@ -398,7 +401,11 @@ impl Settings {
         for setting in list::own() {
             setting.check(&setting.get(self), called)?;
         }
-        let Estimator { camera, model, lens, aperture, jitter, .. } = &self.estimator;
+        let Estimator { scene, integrator, camera, model, lens, aperture, jitter, .. } = &self.estimator;
+        integrator.can_render(scene).or_else(|reason| {
+            let name = list::setting("integrator").name(called);
+            out_of_range(format!("{name} {} {reason}", name_of(&Integrator::NAMES, integrator)))
+        })?;
         if needs_moments(self.view.overlay) && !self.estimator.has_moments() {
             return out_of_range("the error is not known where no moments are kept".into());
         }

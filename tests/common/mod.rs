@@ -65,7 +65,7 @@ impl Gpu {
 
     pub fn renderer(&self, settings: &Settings) -> Renderer {
         let shaders = Shaders {
-            trace: self.shader("trace"),
+            trace: ["trace", "trace_path"].map(|name| self.shader(name)),
             accumulate: self.shader("accumulate"),
             select: self.shader("select"),
             resolve: self.shader("resolve"),
@@ -202,7 +202,7 @@ pub fn seen(estimator: &Estimator, pixel: [u32; 2], offset: [f64; 2]) -> Option<
 
 /// Likewise, with all that the oracle knows of what is met there.
 pub fn met(estimator: &Estimator, pixel: [u32; 2], offset: [f64; 2]) -> Option<(f64, intersect::Hit)> {
-    let ray = Reference::new(estimator).trace(pixel, offset, [0.0; 2], 0.0).ray;
+    let ray = Reference::new(estimator).primary_ray(pixel, offset, [0.0; 2], 0.0);
     let hit = intersect::intersect(&estimator.scene, ray, 0.0)?;
     let axis = (estimator.camera.look_at - estimator.camera.eye).normalize();
     Some((hit.distance * ray.direction.dot(axis), hit))

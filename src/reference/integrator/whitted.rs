@@ -1,6 +1,7 @@
 //! Whitted's integrator: direct light with hard shadows, ambient light, and mirrors. K. Suffern, chapters 14 to 16 and
 //! 24.
 
+use super::MIN_DISTANCE;
 use crate::reference::Ray;
 use crate::reference::intersect::intersect;
 use crate::reference::light::{arriving, background};
@@ -8,10 +9,6 @@ use crate::reference::material::kind_of;
 use crate::reference::surface::Surface;
 use crate::scene::{Material, Scene};
 use glam::DVec3;
-
-/// A secondary ray ignores hits that are nearer than this, relative to the coordinates of its origin. It is the
-/// rounding error of f64 with room to spare.
-const MIN_DISTANCE: f64 = 1e-10;
 
 /// The radiance that arrives along `ray`, with at most `bounces` reflections.
 pub fn radiance(scene: &Scene, ray: Ray, bounces: u32) -> DVec3 {
@@ -24,9 +21,9 @@ fn radiance_beyond(scene: &Scene, ray: Ray, min_distance: f64, bounces: u32) -> 
     };
     let material = &scene.materials[hit.material as usize];
     let surface = Surface::new(&ray, &hit);
-    let min_distance = MIN_DISTANCE * surface.position.abs().max_element().max(hit.distance);
+    let min_distance = MIN_DISTANCE * surface.magnitude;
     let mut sum = emitted_and_reflected(scene, material, &surface, &ray, min_distance);
-    if let Some((direction, weight)) = kind_of(material).sample(&surface, ray.direction)
+    if let Some((direction, weight)) = kind_of(material).mirrored(&surface, -ray.direction)
         && bounces > 0
     {
         let mirrored = Ray { origin: surface.position, direction, time: ray.time };

@@ -13,9 +13,13 @@ impl Kind for Mirror {
 
     /// The shading normal mirrors the direction. If the result would enter the surface, it is mirrored out of the
     /// surface again.
-    fn sample(&self, at: &Surface, direction: DVec3) -> Option<(DVec3, DVec3)> {
-        let mirrored = direction - 2.0 * direction.dot(at.shading_normal) * at.shading_normal;
+    fn mirrored(&self, at: &Surface, to_viewer: DVec3) -> Option<(DVec3, DVec3)> {
+        let mirrored = 2.0 * to_viewer.dot(at.shading_normal) * at.shading_normal - to_viewer;
         let mirrored = mirrored - 2.0 * mirrored.dot(at.normal).min(0.0) * at.normal;
         (self.reflectance != Vec3::ZERO).then_some((mirrored, self.reflectance.as_dvec3()))
+    }
+
+    fn sample(&self, at: &Surface, to_viewer: DVec3, _xi: [f64; 3]) -> Option<(DVec3, DVec3)> {
+        self.mirrored(at, to_viewer)
     }
 }

@@ -27,9 +27,14 @@ pub(super) trait Kind {
         DVec3::ZERO
     }
 
-    /// The direction in which a ray with this direction goes on, and the weight of the radiance that arrives from
-    /// there.
-    fn sample(&self, _at: &Surface, _direction: DVec3) -> Option<(DVec3, DVec3)> {
+    /// The direction of the mirror image that the viewer sees, and the weight of its radiance.
+    fn mirrored(&self, _at: &Surface, _to_viewer: DVec3) -> Option<(DVec3, DVec3)> {
+        None
+    }
+
+    /// A random direction from which light is scattered towards the viewer, and the weight of its radiance: the BRDF
+    /// times the cosine, divided by the probability density. For one direction out of three values in [0, 1).
+    fn sample(&self, _at: &Surface, _to_viewer: DVec3, _xi: [f64; 3]) -> Option<(DVec3, DVec3)> {
         None
     }
 }

@@ -31,12 +31,21 @@ impl Crossing {
     }
 }
 
+/// The rotation that takes the vertical nearest to a unit normal to the normal.
+fn from_vertical(normal: DVec3) -> DQuat {
+    DQuat::from_rotation_arc(if normal.y < 0.0 { DVec3::NEG_Y } else { DVec3::Y }, normal)
+}
+
 /// The coordinates of a vector along two tangents, which are perpendicular to a unit normal. They are the world's axes
-/// x and z, turned by the rotation that takes the vertical nearest to the normal to the normal.
+/// x and z, turned as the normal is turned from the vertical.
 fn tangent_coordinates(normal: DVec3, vector: DVec3) -> DVec2 {
-    let vertical = if normal.y < 0.0 { DVec3::NEG_Y } else { DVec3::Y };
-    let turned_back = DQuat::from_rotation_arc(vertical, normal).inverse() * vector;
+    let turned_back = from_vertical(normal).inverse() * vector;
     DVec2::new(turned_back.x, turned_back.z)
+}
+
+/// The vector with these coordinates: x and z along the two tangents, and y along the unit normal.
+pub(super) fn around(normal: DVec3, DVec3 { x, y, z }: DVec3) -> DVec3 {
+    from_vertical(normal) * DVec3::new(x, if normal.y < 0.0 { -y } else { y }, z)
 }
 
 /// The nearest crossing farther than `least`.

@@ -1,7 +1,7 @@
 //! A material that reflects light evenly in all directions.
 
-use super::Kind;
-use crate::scene::Texture;
+use super::{ADDS_LIGHT, Kind};
+use crate::scene::{Integrator, Texture};
 use crate::scene::texture::TextureTable;
 use crate::scene::toml::number::NonNegative;
 use glam::DVec3;
@@ -24,6 +24,11 @@ impl Kind for Matte {
         let color = self.color.brightest().as_dvec3();
         f64::from(self.ka) * color * ambient + f64::from(self.kd) * FRAC_1_PI * color * lights
     }
+
+    fn refusal(&self, integrator: Integrator) -> Option<&'static str> {
+        let adds_light = self.kd * self.color.brightest().max_element() > 1.0;
+        (integrator == Integrator::Path && adds_light).then_some(ADDS_LIGHT)
+    }
 }
 
 /// The table `[matte.NAME]`.
@@ -31,12 +36,13 @@ impl Kind for Matte {
 #[serde(deny_unknown_fields)]
 pub(in crate::scene) struct MatteTable {
     color: TextureTable,
-    ka: NonNegative,
-    kd: NonNegative,
+    ka: Option<NonNegative>,
+    kd: Option<NonNegative>,
 }
 
 impl From<MatteTable> for Matte {
     fn from(table: MatteTable) -> Self {
-        Self { color: table.color.into(), ka: table.ka.0, kd: table.kd.0 }
+        let kd = table.kd.map_or(1.0, |kd| kd.0);
+        Self { color: table.color.into(), ka: table.ka.map_or(kd, |ka| ka.0), kd }
     }
 }

@@ -1,6 +1,7 @@
 //! A mirror, which can have highlights.
 
-use super::Kind;
+use super::{ADDS_LIGHT, HAS_HIGHLIGHT, Kind};
+use crate::scene::Integrator;
 use crate::scene::toml::number::{NonNegative, Rgb};
 use glam::{DVec3, Vec3};
 use serde::Deserialize;
@@ -24,6 +25,14 @@ impl Kind for Mirror {
 
     fn reflectance(&self) -> Vec3 {
         self.reflectance
+    }
+
+    fn refusal(&self, integrator: Integrator) -> Option<&'static str> {
+        if integrator == Integrator::Whitted {
+            return None;
+        }
+        let adds_light = (self.reflectance.max_element() > 1.0).then_some(ADDS_LIGHT);
+        (self.ks != 0.0).then_some(HAS_HIGHLIGHT).or(adds_light)
     }
 }
 

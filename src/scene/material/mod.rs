@@ -6,6 +6,7 @@ mod matte;
 mod mirror;
 mod phong;
 
+use super::Integrator;
 use glam::{DVec3, Vec3};
 
 /// Calls a macro with the list of all kinds. An entry has the name of the kind, its table, and the name of the table in
@@ -35,7 +36,18 @@ trait Kind {
     fn reflectance(&self) -> Vec3 {
         Vec3::ZERO
     }
+
+    /// Why an integrator cannot render this material, and what to use instead. `None` if it can.
+    fn refusal(&self, _integrator: Integrator) -> Option<&'static str> {
+        None
+    }
 }
+
+/// Why `path` cannot render a material that adds light.
+const ADDS_LIGHT: &str = "it reflects more light than arrives; use a color and a coefficient whose product is at most 1";
+/// Why `path` cannot render Suffern's highlights.
+const HAS_HIGHLIGHT: &str = "the highlights of ks and exponent belong to the integrator whitted; use matte or mirror \
+                             without them";
 
 macro_rules! define_material {
     ([$(($kind:ident, $table:ident, $name:ident),)+]) => {
@@ -61,6 +73,11 @@ macro_rules! define_material {
             /// The fraction of light that is reflected as in a mirror.
             pub fn reflectance(&self) -> Vec3 {
                 match self { $(Self::$kind(of) => of.reflectance(),)+ }
+            }
+
+            /// Why an integrator cannot render this material, and what to use instead. `None` if it can.
+            pub(super) fn refusal(&self, integrator: Integrator) -> Option<&'static str> {
+                match self { $(Self::$kind(of) => of.refusal(integrator),)+ }
             }
         }
 

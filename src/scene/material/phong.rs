@@ -1,7 +1,7 @@
 //! A matte material with a highlight.
 
-use super::{Kind, Matte};
-use crate::scene::Texture;
+use super::{HAS_HIGHLIGHT, Kind, Matte};
+use crate::scene::{Integrator, Texture};
 use crate::scene::texture::TextureTable;
 use crate::scene::toml::number::NonNegative;
 use glam::DVec3;
@@ -33,6 +33,10 @@ impl Phong {
 impl Kind for Phong {
     fn brightest(&self, lights: DVec3, ambient: DVec3) -> DVec3 {
         self.matte().brightest(lights, ambient) + f64::from(self.ks) * lights
+    }
+
+    fn refusal(&self, integrator: Integrator) -> Option<&'static str> {
+        (integrator == Integrator::Path).then_some(HAS_HIGHLIGHT)
     }
 }
 

@@ -4,7 +4,7 @@ use super::{Stage, Staged};
 use crate::error::Result;
 use crate::scene::mesh::{Mesh, Placement};
 use crate::scene::{
-    Aperture, Background, Camera, CameraModel, Checker, DEFAULT_SHUTTER, DirectionalLight, Hole, Lens, Light,
+    Aperture, Background, Camera, CameraModel, Checker, DEFAULT_SHUTTER, DirectionalLight, Hole, Integrator, Lens, Light,
     LightKind, Material, Matte, Plane, Scene, Sensor, Shaded, Triangle, View,
 };
 use glam::{DVec3, Vec3};
@@ -112,6 +112,7 @@ pub(in crate::scene) fn around(mesh: Arc<Mesh>, stage: &Stage, name: &str) -> Re
         size: SIZE,
         shutter: DEFAULT_SHUTTER,
         view: View::default(),
+        integrator: Integrator::Whitted,
         max_bounces: MAX_BOUNCES,
         background: background(stage),
         ambient: AMBIENT,

@@ -24,8 +24,9 @@ enum Form {
 }
 
 /// The names at the top level of a file, without those of lights, materials and shapes.
-const TOP: [(&str, Form); 7] = [
+const TOP: [(&str, Form); 8] = [
     ("size", Form::Value),
+    ("integrator", Form::Value),
     ("max_bounces", Form::Value),
     ("camera", Form::One),
     ("view", Form::One),
@@ -181,7 +182,7 @@ fn value_of(table: Option<&str>, key: &str) -> String {
             | "normal" | "position" | "direction" | "rotate_degrees",
         ) => THREE_NUMBERS,
         (_, "vertices") => "three corners, [[x, y, z], [x, y, z], [x, y, z]]",
-        (_, "material" | "file" | "preset" | "sensor" | "model" | "overlay" | "aperture_image") => {
+        (_, "integrator" | "material" | "file" | "preset" | "sensor" | "model" | "overlay" | "aperture_image") => {
             "a name in quotes, such as \"name\""
         }
         (_, "tolerance") => "a text like \"0.03 mm\", or a number of pixels",

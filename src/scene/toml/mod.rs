@@ -14,9 +14,9 @@ mod view;
 use super::light::{self, BackgroundTable, LightTable, background, light_kinds};
 use super::material::{self, material_kinds};
 use super::shape::{self, ShapeTable, shape_kinds};
-use super::{Light, Scene, Shaded, View};
+use super::{Integrator, Light, Scene, Shaded, View};
 use camera::{CameraTable, Shot};
-use error::ParseError;
+use error::{ParseError, named};
 use glam::Vec3;
 use material_list::{MaterialList, Named};
 use mesh::MeshTable;
@@ -43,8 +43,9 @@ macro_rules! define_scene_file {
         pub(super) struct SceneFile {
             #[serde(default = "default_size")]
             size: [Extent; 2],
-            #[serde(default = "default_max_bounces")]
-            max_bounces: Count,
+            #[serde(default)]
+            integrator: Option<Spanned<String>>,
+            max_bounces: Option<Count>,
             camera: Spanned<CameraTable>,
             #[serde(default)]
             view: Option<Spanned<ViewTable>>,
@@ -104,10 +105,6 @@ fn default_size() -> [Extent; 2] {
     [Extent(1280), Extent(720)]
 }
 
-fn default_max_bounces() -> Count {
-    Count(5)
-}
-
 impl SceneFile {
     /// Makes the scene. Paths in the tables are relative to `folder`.
     pub(super) fn into_scene(mut self, name: &str, folder: &Path) -> Result<Scene, ParseError> {
@@ -117,6 +114,10 @@ impl SceneFile {
         let view = View { iso, ..view(self.view.as_ref())? };
         let background = background(self.background.as_ref())?;
         let ambient = self.ambient.as_ref().map_or(Vec3::ZERO, LightColor::radiance);
+        let integrator = self.integrator.as_ref();
+        let integrator = integrator.map(|name| named(&Integrator::NAMES, name, "integrator")).transpose()?;
+        let integrator = integrator.unwrap_or_default();
+        let max_bounces = self.max_bounces.as_ref().map(|count| count.0);
         let lights = self.lights()?;
         let list = self.take_materials()?;
 
@@ -132,7 +133,8 @@ impl SceneFile {
             shutter,
             view,
             size,
-            max_bounces: self.max_bounces.0,
+            integrator,
+            max_bounces: max_bounces.unwrap_or(integrator.default_max_bounces()),
             background,
             ambient,
             lights,

@@ -1,7 +1,7 @@
 //! The size of the picture, and how it is sampled.
 
 use super::{EVEN, LOGARITHMIC, by_name, field, row, top};
-use crate::scene::{MAX_BOUNCES, MAX_EXTENT};
+use crate::scene::{Integrator, MAX_BOUNCES, MAX_EXTENT};
 use crate::settings::{
     Access, Choice, DEFAULT_JITTER, JITTERS, MAX_SAMPLES, Part, Role, Sampler, Setting, Slider, Unit, Widget,
     name_of, named,
@@ -64,10 +64,24 @@ pub(super) static SAMPLING: &[Setting] = &[
         ),
     },
     Setting {
+        flag: "integrator",
+        letter: None,
+        value_name: "",
+        help: "What finds the light along a ray. whitted is that of Suffern's book: lights without extent, hard shadows, \
+               ambient light and mirrors. path follows light from lamps and the sky, by any number of reflections",
+        default: "the scene's",
+        role: Role::Estimator,
+        key: top("integrator"),
+        access: Access::Choice(by_name!(Integrator::NAMES, estimator.integrator), || {
+            Integrator::NAMES.map(|(name, _)| Choice { name, label: name, help: "" }).to_vec()
+        }),
+        row: None,
+    },
+    Setting {
         flag: "max-bounces",
         letter: None,
         value_name: "N",
-        help: "The number of mirror reflections that are followed, up to 64",
+        help: "How often light is scattered on its way to the lens, up to 64. whitted counts mirrors only",
         default: "the scene's",
         role: Role::Estimator,
         key: top("max_bounces"),

@@ -1,0 +1,60 @@
+// The radiance along a ray, by path tracing: J. Kajiya, "The Rendering Equation", SIGGRAPH 1986. A path goes on from each
+// surface in one random direction, so light arrives by any number of reflections, in proportion to its probability.
+
+#ifndef PATH_GLSL
+#define PATH_GLSL
+
+#include "core/sampling.glsl"
+#include "light/light.glsl"
+#include "material/material.glsl"
+
+// A path of so many surfaces always goes on. After that, it ends by chance (Russian roulette), the sooner the less light
+// it can still bring, and stands for the paths that have ended.
+const uint SURFACES_BEFORE_ROULETTE = 3u;
+const float MOST_SURVIVAL = 0.95;
+
+// The probability that a path goes on from the surface after so many bounces, if its light counts so much.
+float survival_probability(const vec3 throughput, const uint bounce) {
+    float most = larger(larger(throughput.x, throughput.y), throughput.z);
+    if (bounce + 1u < SURFACES_BEFORE_ROULETTE) {
+        return most > 0.0 ? 1.0 : 0.0;
+    }
+    return smaller(most, MOST_SURVIVAL);
+}
+
+// The radiance that arrives along the ray, by light that was scattered at most max_bounces times. rays counts every ray
+// traced. given_up is true if a search took too long; the radiance is then of no use.
+vec3 radiance(Ray ray, const PathSampler path, const uint max_bounces, inout uint rays, out bool given_up) {
+    vec3 sum = vec3(0.0);
+    vec3 throughput = vec3(1.0);
+    given_up = false;
+    uint bounce = 0u;
+    do {
+        ++rays;
+        Hit hit = intersect_scene(ray, given_up);
+        if (hit.distance >= MISS) {
+            sum += throughput * background(ray.direction);
+            break;
+        }
+        SurfacePoint at = surface_point(ray, hit);
+        face_forward(at, ray.direction);
+        Material material = get_material(hit.material);
+        vec3 color = texture_value(material.color, at);
+        sum += throughput * material_emission(material, color);
+        if (bounce == max_bounces) {
+            break;
+        }
+        vec4 xi = path_values(path, bounce, USE_DIRECTION);
+        Scatter scatter = material_sample(material, color, at, -ray.direction, xi.xyz);
+        throughput *= scatter.weight;
+        float survival = survival_probability(throughput, bounce);
+        if (xi.w >= survival) {
+            break;
+        }
+        throughput /= survival;
+        ray = Ray(start_towards(at, scatter.direction), scatter.direction);
+    } while (++bounce <= max_bounces);
+    return sum;
+}
+
+#endif
