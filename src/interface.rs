@@ -190,6 +190,10 @@ pub mod material {
         MIRROR,
         /// A surface that emits light.
         EMISSIVE,
+        /// A metal, smooth or rough.
+        METAL,
+        /// A clear body, smooth or frosted.
+        GLASS,
     }
 }
 

@@ -5,6 +5,7 @@
 #define PATH_GLSL
 
 #include "core/sampling.glsl"
+#include "integrator/media.glsl"
 #include "light/light.glsl"
 #include "material/material.glsl"
 
@@ -28,6 +29,7 @@ vec3 radiance(Ray ray, const PathSampler path, const uint max_bounces, inout uin
     vec3 sum = vec3(0.0);
     vec3 throughput = vec3(1.0);
     given_up = false;
+    Media here = in_air();
     uint bounce = 0u;
     do {
         ++rays;
@@ -40,6 +42,14 @@ vec3 radiance(Ray ray, const PathSampler path, const uint max_bounces, inout uin
         face_forward(at, ray.direction);
         Material material = get_material(hit.material);
         vec3 color = texture_value(material.color, at);
+        Media beyond = here;
+        if (HAS_MEDIA) {
+            throughput *= transmittance(here, hit.distance);
+            if (material.kind == MATERIAL_GLASS) {
+                beyond = beyond_surface(here, hit.material, at.from_behind);
+                at.index_ratio = index_of(beyond) / index_of(here);
+            }
+        }
         sum += throughput * material_emission(material, color);
         if (bounce == max_bounces) {
             break;
@@ -52,6 +62,9 @@ vec3 radiance(Ray ray, const PathSampler path, const uint max_bounces, inout uin
             break;
         }
         throughput /= survival;
+        if (HAS_MEDIA && dot(scatter.direction, at.normal) < 0.0) {
+            here = beyond;
+        }
         ray = Ray(start_towards(at, scatter.direction), scatter.direction);
     } while (++bounce <= max_bounces);
     return sum;

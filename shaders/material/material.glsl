@@ -6,12 +6,12 @@
 #include "material/kinds.glsl"
 #include "texture/texture.glsl"
 
-// Every material looks the same from both sides of a surface. So this turns the normals to the side that the ray comes
+// Every material but glass looks the same from both sides of a surface. So this turns the normals to the side that the ray comes
 // from, and puts the origin of further rays on that side.
 void face_forward(inout SurfacePoint at, const vec3 direction) {
-    bool from_behind = dot(at.normal, direction) > 0.0;
-    at.normal = from_behind ? -at.normal : at.normal;
-    at.shading_normal = from_behind ? -at.shading_normal : at.shading_normal;
+    at.from_behind = dot(at.normal, direction) > 0.0;
+    at.normal = at.from_behind ? -at.normal : at.normal;
+    at.shading_normal = at.from_behind ? -at.shading_normal : at.shading_normal;
     at.offset_position = at.position + at.error * at.normal;
 }
 

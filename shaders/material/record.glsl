@@ -28,6 +28,8 @@ struct Material {
     float ks; // specular reflection
     float exponent; // the exponent of the highlight
     uint kind;
+    float roughness; // from 0 to 1
+    float index; // the refractive index
 };
 
 // A direction from which light comes that is scattered towards the viewer, and the weight of its radiance: of a random

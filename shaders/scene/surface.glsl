@@ -13,6 +13,8 @@ struct SurfacePoint {
     float error; // how far off the surface the position may be
     vec3 offset_position; // the position, moved off the surface by error: where further rays start
     vec3 rest_position; // the same point of the shape, where it is in the middle of the exposure
+    bool from_behind; // whether the ray comes from the side that the shape's own normal points away from
+    float index_ratio; // the refractive index beyond the surface, divided by that on the side that the ray comes from
 };
 
 // The point where the ray meets a surface. The normals point as those of the shape do: face_forward() turns them, and
@@ -27,6 +29,8 @@ SurfacePoint surface_point(const Ray ray, const Hit hit) {
     }
     at.shading_normal = hit.surface.shading_normal == vec3(0.0) ? at.normal : hit.surface.shading_normal;
     at.offset_position = at.position;
+    at.from_behind = false;
+    at.index_ratio = 1.0;
     return at;
 }
 

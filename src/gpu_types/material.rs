@@ -16,7 +16,9 @@ pub struct Material {
     pub ks: f32,
     pub exponent: f32,
     pub kind: u32,
-    pub pad0: [u32; 3],
+    pub roughness: f32,
+    pub index: f32,
+    pub pad0: u32,
 }
 
 /// `Texture` of texture/record.glsl.
@@ -58,6 +60,17 @@ impl Material {
                 ..constant(material::MIRROR, of.reflectance)
             },
             scene::Material::Emissive(of) => constant(material::EMISSIVE, of.radiance),
+            scene::Material::Metal(of) => Self {
+                color: Texture::new(&of.color, origin),
+                roughness: flush_denormal(of.roughness),
+                kind: material::METAL,
+                ..Zeroable::zeroed()
+            },
+            scene::Material::Glass(of) => Self {
+                roughness: flush_denormal(of.roughness),
+                index: of.index,
+                ..constant(material::GLASS, of.absorption())
+            },
         }
     }
 }

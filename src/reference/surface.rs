@@ -15,6 +15,10 @@ pub(super) struct Surface {
     pub(super) normal: DVec3,
     /// The unit normal that shading and mirrors use.
     pub(super) shading_normal: DVec3,
+    /// Whether the ray comes from the side that the shape's own normal points away from.
+    pub(super) from_behind: bool,
+    /// The refractive index beyond the surface, relative to that on the side that the ray comes from.
+    pub(super) index_ratio: f64,
     /// The magnitude of the numbers that the position was computed from.
     pub(super) magnitude: f64,
 }
@@ -28,6 +32,8 @@ impl Surface {
             rest_position: position - ray.time * hit.velocity,
             normal: hit.normal,
             shading_normal: hit.shading_normal,
+            from_behind: hit.from_behind,
+            index_ratio: 1.0,
             magnitude: position.abs().max_element().max(hit.distance),
         }
     }

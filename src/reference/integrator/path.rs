@@ -7,48 +7,92 @@ use crate::reference::light::background;
 use crate::reference::material::kind_of;
 use crate::reference::sampler::Use;
 use crate::reference::surface::Surface;
-use crate::scene::Scene;
+use crate::scene::{Glass, Material, Scene};
 use glam::DVec3;
 
 /// The radiance that arrives along `ray`.
 pub(super) fn radiance(scene: &Scene, ray: Ray, limits: &Limits, values: PathValues<'_>) -> DVec3 {
-    radiance_after(scene, ray, 0.0, DVec3::ONE, 0, limits, values)
+    Path { scene, limits, values }.radiance(ray, 0.0, DVec3::ONE, 0, &[])
 }
 
-/// The radiance along a ray that has bounced so often. `importance` is the share of this radiance that reaches the lens;
-/// it decides only how probably the path goes on.
-fn radiance_after(
-    scene: &Scene,
-    ray: Ray,
-    min_distance: f64,
-    importance: DVec3,
-    bounce: u32,
-    limits: &Limits,
-    values: PathValues<'_>,
-) -> DVec3 {
-    let Some(hit) = intersect(scene, ray, min_distance) else {
-        return background(scene, ray.direction);
-    };
-    let material = kind_of(&scene.materials[hit.material as usize]);
-    let surface = Surface::new(&ray, &hit);
-    let emitted = material.emission();
-    if bounce == limits.max_bounces {
-        return emitted;
+/// What stays the same along a path.
+struct Path<'a> {
+    scene: &'a Scene,
+    limits: &'a Limits,
+    values: PathValues<'a>,
+}
+
+impl Path<'_> {
+    /// The radiance along a ray that has bounced so often. `importance` is the share of this radiance that reaches the
+    /// lens; it decides only how probably the path goes on. The ray is inside of the bodies with the materials `inside`,
+    /// the last of which it has entered last.
+    fn radiance(
+        &self,
+        ray: Ray,
+        min_distance: f64,
+        importance: DVec3,
+        bounce: u32,
+        inside: &[u32],
+    ) -> DVec3 {
+        let Some(hit) = intersect(self.scene, ray, min_distance) else {
+            return background(self.scene, ray.direction);
+        };
+        let left = self.left_after(hit.distance, inside);
+        let importance = importance * left;
+        let material = &self.scene.materials[hit.material as usize];
+        let mut surface = Surface::new(&ray, &hit);
+        let mut beyond = inside.to_vec();
+        if matches!(material, Material::Glass(_)) {
+            if surface.from_behind {
+                if let Some(at) = beyond.iter().rposition(|body| *body == hit.material) {
+                    beyond.remove(at);
+                }
+            } else {
+                beyond.push(hit.material);
+            }
+            surface.index_ratio = self.index(&beyond) / self.index(inside);
+        }
+        let material = kind_of(material);
+        let emitted = left * material.emission();
+        if bounce == self.limits.max_bounces {
+            return emitted;
+        }
+        let [first, second, third, chance] = (self.values)(bounce, Use::Direction);
+        let scattered = material.sample(&surface, -ray.direction, [first, second, third]);
+        let Some((direction, weight)) = scattered else {
+            return emitted;
+        };
+        let survival = survival((importance * weight).max_element(), bounce);
+        if chance >= survival {
+            return emitted;
+        }
+        let weight = weight / survival;
+        let further = Ray { origin: surface.position, direction, time: ray.time };
+        let min_distance = MIN_DISTANCE * surface.magnitude;
+        let passes = direction.dot(surface.normal) < 0.0;
+        let inside = if passes { &beyond } else { inside };
+        emitted
+            + left * weight * self.radiance(further, min_distance, importance * weight, bounce + 1, inside)
     }
-    let [first, second, third, chance] = values(bounce, Use::Direction);
-    let Some((direction, weight)) = material.sample(&surface, -ray.direction, [first, second, third]) else {
-        return emitted;
-    };
-    let survival = survival((importance * weight).max_element(), bounce);
-    if chance >= survival {
-        return emitted;
+
+    /// The body that a ray entered last, if it is inside of any.
+    fn body(&self, inside: &[u32]) -> Option<&Glass> {
+        match inside.last().map(|body| &self.scene.materials[*body as usize]) {
+            Some(Material::Glass(body)) => Some(body),
+            _ => None,
+        }
     }
-    let weight = weight / survival;
-    let further = Ray { origin: surface.position, direction, time: ray.time };
-    let min_distance = MIN_DISTANCE * surface.magnitude;
-    let arriving =
-        radiance_after(scene, further, min_distance, importance * weight, bounce + 1, limits, values);
-    emitted + weight * arriving
+
+    fn index(&self, inside: &[u32]) -> f64 {
+        self.body(inside).map_or(1.0, |body| body.index.into())
+    }
+
+    /// The share of light that is left after this distance, by Beer's law.
+    fn left_after(&self, distance: f64, inside: &[u32]) -> DVec3 {
+        self.body(inside).map_or(DVec3::ONE, |body| {
+            body.color.as_dvec3().max(DVec3::splat(1e-6)).powf(distance / f64::from(body.color_distance))
+        })
+    }
 }
 
 /// The probability that a path goes on. Paths of one or two surfaces do, unless they carry nothing.

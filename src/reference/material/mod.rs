@@ -2,7 +2,10 @@
 //! `shaders/material`.
 
 mod emissive;
+mod glass;
 mod matte;
+mod metal;
+mod microfacet;
 mod mirror;
 mod phong;
 
@@ -46,5 +49,7 @@ pub(super) fn kind_of(material: &Material) -> &dyn Kind {
         Material::Phong(of) => of,
         Material::Mirror(of) => of,
         Material::Emissive(of) => of,
+        Material::Metal(of) => of,
+        Material::Glass(of) => of,
     }
 }

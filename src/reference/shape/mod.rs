@@ -39,11 +39,17 @@ fn from_vertical(normal: DVec3) -> DQuat {
 /// The coordinates of a vector along two tangents, which are perpendicular to a unit normal. They are the world's axes
 /// x and z, turned as the normal is turned from the vertical.
 fn tangent_coordinates(normal: DVec3, vector: DVec3) -> DVec2 {
-    let turned_back = from_vertical(normal).inverse() * vector;
+    let turned_back = local(normal, vector);
     DVec2::new(turned_back.x, turned_back.z)
 }
 
-/// The vector with these coordinates: x and z along the two tangents, and y along the unit normal.
+/// The coordinates of a vector along these tangents, as x and z, and along the unit normal, as y.
+pub(super) fn local(normal: DVec3, vector: DVec3) -> DVec3 {
+    let turned_back = from_vertical(normal).inverse() * vector;
+    turned_back.with_y(if normal.y < 0.0 { -turned_back.y } else { turned_back.y })
+}
+
+/// The vector that has these coordinates: see [`local`].
 pub(super) fn around(normal: DVec3, DVec3 { x, y, z }: DVec3) -> DVec3 {
     from_vertical(normal) * DVec3::new(x, if normal.y < 0.0 { -y } else { y }, z)
 }

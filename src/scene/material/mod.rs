@@ -2,7 +2,9 @@
 //! `material_kinds` lists the kinds.
 
 mod emissive;
+mod glass;
 mod matte;
+mod metal;
 mod mirror;
 mod phong;
 
@@ -20,6 +22,8 @@ macro_rules! material_kinds {
                 (Phong, PhongTable, phong),
                 (Mirror, MirrorTable, mirror),
                 (Emissive, EmissiveTable, emissive),
+                (Metal, MetalTable, metal),
+                (Glass, GlassTable, glass),
             ]
         }
     };
@@ -43,6 +47,8 @@ trait Kind {
     }
 }
 
+/// Why `whitted` cannot render a material.
+const NEEDS_PATH: &str = "it needs the integrator path";
 /// Why `path` cannot render a material that adds light.
 const ADDS_LIGHT: &str = "it reflects more light than arrives; use a color and a coefficient whose product is at most 1";
 /// Why `path` cannot render Suffern's highlights.

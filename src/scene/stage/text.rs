@@ -92,6 +92,16 @@ fn table(name: &str, material: &Material) -> String {
         Material::Emissive(of) => {
             format!("\n[emissive.{name}]\ncolor = {}\nradiance = 1\n", numbers(of.radiance))
         }
+        Material::Metal(of) => {
+            format!("\n[metal.{name}]\ncolor = {}\nroughness = {}\n", color(&of.color), of.roughness)
+        }
+        Material::Glass(of) => format!(
+            "\n[glass.{name}]\nindex = {}\nroughness = {}\ncolor = {}\ncolor_distance = {}\n",
+            of.index,
+            of.roughness,
+            numbers(of.color),
+            of.color_distance
+        ),
     }
 }
 

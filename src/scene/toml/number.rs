@@ -14,6 +14,14 @@ pub(in crate::scene) struct Positive(pub(in crate::scene) f64);
 #[serde(try_from = "f64")]
 pub(in crate::scene) struct NonNegative(pub(in crate::scene) f32);
 
+#[derive(Deserialize, Default)]
+#[serde(try_from = "f64")]
+pub(in crate::scene) struct Fraction(pub(in crate::scene) f32);
+
+#[derive(Deserialize)]
+#[serde(try_from = "f64")]
+pub(in crate::scene) struct RefractiveIndex(pub(in crate::scene) f32);
+
 #[derive(Deserialize)]
 #[serde(try_from = "[f64; 3]")]
 pub(in crate::scene) struct Vector(pub(in crate::scene) DVec3);
@@ -66,6 +74,29 @@ impl TryFrom<f64> for NonNegative {
 
     fn try_from(value: f64) -> Result<Self, String> {
         in_range(value, [0.0, MAX_LENGTH].map(f64::from)).map(|()| Self(value as f32))
+    }
+}
+
+impl TryFrom<f64> for Fraction {
+    type Error = String;
+
+    fn try_from(value: f64) -> Result<Self, String> {
+        in_range(value, [0.0, 1.0]).map(|()| Self(value as f32))
+    }
+}
+
+impl TryFrom<f64> for RefractiveIndex {
+    type Error = String;
+
+    fn try_from(value: f64) -> Result<Self, String> {
+        in_range(value, [1.0, 4.0]).map(|()| Self(value as f32))
+    }
+}
+
+impl Default for RefractiveIndex {
+    /// That of window glass.
+    fn default() -> Self {
+        Self(1.5)
     }
 }
 
