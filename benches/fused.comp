@@ -8,6 +8,7 @@
 
 layout(local_size_x = GROUP_SIZE, local_size_y = GROUP_SIZE) in;
 
+#include "integrator/whitted.glsl"
 #include "core/trace_batch.glsl"
 
 layout(set = 0, binding = BINDING_FILM_IMAGE, rgba32f) uniform image2D film_image;

@@ -4,7 +4,8 @@ use crate::error::{Error, Result};
 use crate::reference::Reference;
 use crate::reference::film::Film;
 use crate::renderer::Renderer;
-use crate::settings::{DeviceChoice, Settings};
+use crate::scene::Integrator;
+use crate::settings::{DeviceChoice, Estimator, Settings};
 use crate::vulkan::{Device, Instance};
 
 /// Two samples agree when every channel differs by at most this share of the oracle's value or of 1, whichever is larger.
@@ -14,14 +15,17 @@ pub const TOLERANCE: f64 = 1e-3;
 /// This is several times the share that the built-in scenes show.
 pub const MAX_MISMATCH_SHARE: f64 = 1e-3;
 
+/// The whole picture may be brighter or darker by this share, however many samples differ.
+pub const MAX_BRIGHTNESS_DIFFERENCE: f64 = 3e-3;
+
 /// After so many samples the film starts anew, for one more would change a mean in f32 too little to be compared.
 const SAMPLES_PER_SEED: u32 = 16;
 
 /// How far a device and the oracle agree.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Agreement {
-    /// The primary rays of a sample: three if the lens has colour errors. Each of them may meet an edge.
-    pub rays: u32,
+    /// By how much more samples may differ than [`MAX_MISMATCH_SHARE`]: see [`Agreement::of`].
+    pub leeway: u32,
     /// Samples compared.
     pub samples: u64,
     /// Samples that differ by more than [`TOLERANCE`].
@@ -57,14 +61,25 @@ impl Agreement {
         }
     }
 
-    /// Nothing compared yet, of samples with so many primary rays.
-    pub fn new(rays: u32) -> Self {
-        Self { rays, samples: 0, mismatches: 0, worst_agreeing: 0.0, sums: [0.0; 2] }
+    /// Nothing compared yet.
+    pub fn new(leeway: u32) -> Self {
+        Self { leeway, samples: 0, mismatches: 0, worst_agreeing: 0.0, sums: [0.0; 2] }
+    }
+
+    /// Nothing compared yet, of a picture with these settings. With colour errors, a sample has three rays, each of which
+    /// may meet an edge. A path has many, and each curved surface that scatters it magnifies what rounding has changed.
+    pub fn of(estimator: &Estimator) -> Self {
+        let colors = if estimator.dispersion() == 0.0 { 1 } else { 3 };
+        let bounces = match estimator.integrator {
+            Integrator::Whitted => 1,
+            Integrator::Path => 10,
+        };
+        Self::new(colors * bounces)
     }
 
     /// The share of samples that may differ.
     pub fn max_mismatch_share(&self) -> f64 {
-        f64::from(self.rays) * MAX_MISMATCH_SHARE
+        f64::from(self.leeway) * MAX_MISMATCH_SHARE
     }
 
     /// The share of samples that differ.
@@ -83,7 +98,7 @@ impl Agreement {
         // Samples that differ at edges are as often brighter as darker, so the brightness differs by less than their share.
         self.samples > 0
             && self.mismatch_share() <= self.max_mismatch_share()
-            && self.brightness_difference().abs() <= self.max_mismatch_share()
+            && self.brightness_difference().abs() <= self.max_mismatch_share().min(MAX_BRIGHTNESS_DIFFERENCE)
     }
 }
 
@@ -94,7 +109,7 @@ impl Agreement {
 /// # Errors
 /// [`Error::Disagreement`], [`Error::OutOfRange`], or those of rendering.
 pub fn verify(renderer: &mut Renderer, settings: &Settings) -> Result<Agreement> {
-    let mut agreement = Agreement::new(if settings.estimator.dispersion() == 0.0 { 1 } else { 3 });
+    let mut agreement = Agreement::of(&settings.estimator);
     let mut settings = settings.clone();
     let samples = settings.samples;
     for first in (0..samples).step_by(SAMPLES_PER_SEED as usize) {

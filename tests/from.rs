@@ -201,6 +201,10 @@ fn changed(scene: &SceneRef, random: &mut fastrand::Rng) -> Settings {
     // A lens that moves cannot focus as near as this one may be.
     let Estimator { camera, lens, .. } = &mut settings.estimator;
     camera.focus_breathing &= camera.can_focus(lens).is_ok();
+    // Most scenes are made for one integrator.
+    if settings.estimator.integrator.can_render(scene).is_err() {
+        settings.estimator.integrator = scene.integrator;
+    }
     settings.check().expect("settings that there can be");
     settings
 }

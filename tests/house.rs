@@ -18,7 +18,7 @@ const ARROWS: [(&str, &[&str]); 18] = [
     ("renderer", &["passes", "gpu_types", "interface", "settings", "scene", "vulkan"]),
     ("passes", &["vulkan", "gpu_types", "interface"]),
     ("gpu_types", &["scene", "settings", "interface"]),
-    ("verify", &["renderer", "reference", "settings", "vulkan"]),
+    ("verify", &["renderer", "reference", "scene", "settings", "vulkan"]),
     ("reference", &["scene", "settings"]),
     ("settings", &["scene"]),
     ("scene", &["input_file", "interface"]),

@@ -6,8 +6,15 @@ use thinlens::interface::binding;
 use thinlens::passes::{Accumulate, Geometry, Pick, Resolve, Select, Trace};
 use thinlens::vulkan::{NEEDED, Shader, StructLayout};
 
-const SHADERS: [Shader; 6] =
-    [Trace::SHADER, Accumulate::SHADER, Select::SHADER, Resolve::SHADER, Pick::SHADER, Geometry::SHADER];
+const SHADERS: [Shader; 7] = [
+    Trace::SHADERS[0],
+    Trace::SHADERS[1],
+    Accumulate::SHADER,
+    Select::SHADER,
+    Resolve::SHADER,
+    Pick::SHADER,
+    Geometry::SHADER,
+];
 
 /// A twin: name, fields with offsets, and size.
 macro_rules! twin {
@@ -21,7 +28,7 @@ type Twin = (&'static str, Vec<(&'static str, usize)>, usize);
 fn twins() -> Vec<Twin> {
     vec![
         twin!("Texture", Texture, [color, kind, other_color, inverse_size, phase]),
-        twin!("Material", Material, [color, ka, kd, ks, exponent, kind]),
+        twin!("Material", Material, [color, ka, kd, ks, exponent, kind, roughness, index]),
         twin!("Light", Light, [radiance, kind, position_or_direction]),
         twin!("Environment", Environment, [horizon, zenith, ambient, bounding_radius]),
         twin!("SceneCounts", SceneCounts, [list_ends, list_begin, lights, shadow_lights, max_tree_steps]),
@@ -173,7 +180,7 @@ fn a_binding_is_the_same_resource_in_every_shader() {
 /// The check above must see a moved field and a wrong size.
 #[test]
 fn a_wrong_twin_is_found() {
-    let interface = Trace::SHADER.interface();
+    let interface = Trace::SHADERS[0].interface();
     let material = interface.structs.iter().find(|layout| layout.name == "Material").expect("it is used");
     let (name, mut fields, size) = twins().into_iter().find(|twin| twin.0 == "Material").expect("listed");
     assert!(fault(material, &(name, fields.clone(), size + 16)).is_some());

@@ -98,7 +98,7 @@ fn a_wrong_value_is_told_what_is_right() {
         ("\"red\"", "red", 14, "a name stands in quotes: \"red\""),
         ("\"red\"", "5", 14, "material must be a name in quotes"),
         ("color = [1, 0, 0]", "color = \"red\"", 10, "[r, g, b]"),
-        ("ka = 0.5\n", "", 7, "[matte.red] needs ka"),
+        ("color = [1, 0, 0]\n", "", 7, "[matte.red] needs color"),
         ("vfov_degrees = 60", "blades = 6.5", 4, "blades must be a whole number"),
         ("vfov_degrees = 60", "upright = 1", 4, "upright must be true or false"),
         ("vfov_degrees = 60", "upright = True", 4, "true or false"),

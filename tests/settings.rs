@@ -11,8 +11,16 @@ use thinlens::scene::{
 };
 use thinlens::settings::{Access, Called, Changes, Role, Setting, Settings, Value, Widget, list};
 
-/// The settings of a built-in scene or, for a setting of a model, of a lone mesh.
+/// The settings of a built-in scene. For a setting of a model, those of a lone mesh, and for the integrator, those of a
+/// scene that each integrator can render.
 fn plain_for(setting: &Setting, folder: &Path) -> Settings {
+    if setting.flag == "integrator" {
+        let file = folder.join("plain.toml");
+        let camera =
+            "eye = [0, 0, 3]\nlook_at = [0, 0, 0]\nvfov_degrees = 30\nlens_diameter = 0\nfocal_distance = 3";
+        std::fs::write(&file, format!("[camera]\n{camera}\n")).expect("a scene");
+        return Settings::of_scene(SceneRef::new(scene::load(&file).expect("a scene")));
+    }
     if !setting.is_of_model() {
         return plain();
     }

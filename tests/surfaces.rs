@@ -5,7 +5,7 @@ mod common;
 use anyhow::{Result, ensure};
 use bytemuck::{Pod, Zeroable};
 use common::probe::{FAR, RayAnswer, RayQuestion, probe};
-use common::scenes::{EVERYTHING, ROOM, one_behind_the_other};
+use common::scenes::{EVERYTHING, PATHS, ROOM, one_behind_the_other};
 use common::{Gpu, plain_scene_of, prove, scene_of};
 use glam::{DVec2, DVec3, Vec3};
 use std::sync::Arc;
@@ -148,7 +148,7 @@ fn everything_and_smooth_triangles() -> SceneRef {
 /// Catches a kind that the tests below do not ask the device about.
 #[test]
 fn every_kind_is_asked_about() {
-    let scenes = shapes().into_iter().map(|(_, scene)| scene).chain([scene_of(EVERYTHING)]);
+    let scenes = shapes().into_iter().map(|(_, scene)| scene).chain([EVERYTHING, PATHS].map(scene_of));
     let mut there = [0; 4];
     for scene in scenes {
         let data = SceneData::new(&scene, 1.0);

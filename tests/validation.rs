@@ -37,7 +37,7 @@ fn record_two_passes(gpu: &Gpu, barrier: bool) {
         SceneBuffers::new(device, &SceneData::new(&estimator.scene, estimator.shutter)).expect("a scene");
     let tile = BlueNoiseTile::new(device).expect("a tile");
     let (trace, accumulate) = (
-        Trace::new(device, Trace::SHADER, &constants, &scene, &tile).expect("trace"),
+        Trace::new(device, Trace::SHADERS[0], &constants, &scene, &tile).expect("trace"),
         Accumulate::new(device, Accumulate::SHADER, &constants, &tile).expect("accumulate"),
     );
     let aperture = ApertureBuffers::new(device, &[]).expect("an aperture");

@@ -3,7 +3,9 @@
 
 use super::schedule::{self, LARGEST_BATCH};
 use crate::error::{Error, Result};
-use crate::gpu_types::{Counters, SceneColors, SceneData, aperture_sums, film_constants, integrator_number, lens_constants};
+use crate::gpu_types::{
+    Counters, SceneColors, SceneData, aperture_sums, film_constants, integrator_number, lens_constants,
+};
 use crate::passes::{
     Accumulate, ApertureBuffers, BlueNoiseTile, Geometry, Pick, Resolve, ResolveKind, SceneBuffers, Select,
     Shaders, Trace,

@@ -14,7 +14,7 @@ pub struct Builtin {
 }
 
 /// All built-in scenes. The first one is the default.
-pub const BUILTINS: [Builtin; 4] = [
+pub const BUILTINS: [Builtin; 5] = [
     Builtin {
         name: "version-4",
         about: "ten objects on a checkered ground, from near to far: the wider the lens, the fewer are sharp",
@@ -38,5 +38,11 @@ pub const BUILTINS: [Builtin; 4] = [
         about: "balls and boxes that pass while the shutter is open: with 1/500 s at ISO 1600, they stand still",
         thumbnail: include_bytes!("builtin/passing.png"),
         toml: include_str!("builtin/passing.toml"),
+    },
+    Builtin {
+        name: "one-weekend",
+        about: "spheres of glass, metal and paint under a clear sky (Ray Tracing in One Weekend), by path tracing",
+        thumbnail: include_bytes!("builtin/one-weekend.png"),
+        toml: include_str!("builtin/one-weekend.toml"),
     },
 ];

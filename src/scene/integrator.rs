@@ -32,9 +32,11 @@ impl Integrator {
     pub fn can_render(self, scene: &Scene) -> Result<(), String> {
         if self == Self::Path {
             if scene.ambient != glam::Vec3::ZERO {
-                return Err("knows no ambient light, because light comes from lamps and from the sky: leave out \
+                return Err(
+                    "knows no ambient light, because light comes from lamps and from the sky: leave out \
                             [ambient], and give [background] a color"
-                    .into());
+                        .into(),
+                );
             }
             if !scene.lights.is_empty() {
                 return Err("knows no lights without extent: leave out [[point]] and [[directional]], and use emissive \
@@ -44,7 +46,8 @@ impl Integrator {
         }
         let named = scene.materials.iter().zip(&scene.material_names);
         let refused = named.filter_map(|(material, name)| Some((material.refusal(self)?, name)));
-        let mut reasons = refused.map(|(reason, name)| format!("cannot render the material {name}: {reason}"));
+        let mut reasons =
+            refused.map(|(reason, name)| format!("cannot render the material {name}: {reason}"));
         reasons.next().map_or(Ok(()), Err)
     }
 }

@@ -22,8 +22,8 @@ pub use sweep::Sweep;
 
 use crate::error::{Error, Result};
 use crate::scene::{
-    Aperture, Camera, CameraModel, FocalPlane, FullScale, Hole, Integrator, Lens, Overlay, Preset, SceneRef, Source,
-    Stage, View, in_range,
+    Aperture, Camera, CameraModel, FocalPlane, FullScale, Hole, Integrator, Lens, Overlay, Preset, SceneRef,
+    Source, Stage, View, in_range,
 };
 use std::path::Path;
 

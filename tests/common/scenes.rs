@@ -74,6 +74,83 @@ vertices = [[-0.2, 0, 1], [0.5, 0, 1.2], [0.1, 0.9, 0.7]]
 material = "glass"
 "#;
 
+/// A scene for the integrator "path", with every kind of shape and material that it renders, and bodies in bodies.
+pub const PATHS: &str = r#"
+integrator = "path"
+max_bounces = 8
+[camera]
+eye = [0.3, 1.5, 4]
+look_at = [0, 0.7, 0]
+vfov_degrees = 50
+lens_diameter = 0.2
+focal_distance = 3.6
+[background]
+horizon = [0.9, 0.8, 0.7]
+zenith = [0.2, 0.4, 0.8]
+[matte.floor]
+color = { even = [0.8, 0.8, 0.7], odd = [0.2, 0.3, 0.3], size = 0.7 }
+[mirror.silver]
+kr = 0.9
+color = [0.9, 1, 0.9]
+[metal.gold]
+color = [1, 0.77, 0.34]
+roughness = 0.45
+[metal.polished]
+color = [0.7, 0.6, 0.5]
+[glass.clear]
+[glass.green]
+index = 1.4
+color = [0.3, 0.9, 0.5]
+color_distance = 0.4
+[glass.air]
+index = 1
+[glass.frosted]
+index = 1.6
+roughness = 0.35
+[emissive.lamp]
+radiance = 4
+[[plane]]
+point = [0, 0, 0]
+normal = [0, 1, 0]
+material = "floor"
+[[sphere]]
+center = [-1.1, 0.6, 0.2]
+radius = 0.6
+material = "green"
+[[sphere]]
+center = [-1.1, 0.6, 0.2]
+radius = 0.35
+material = "air"
+[[sphere]]
+center = [0.1, 0.4, 1.1]
+radius = 0.4
+material = "clear"
+[[sphere]]
+center = [1.1, 0.5, 0.8]
+radius = 0.5
+material = "frosted"
+[[sphere]]
+center = [1.6, 1.8, -1]
+radius = 0.4
+material = "lamp"
+[[sphere]]
+center = [-0.4, 0.5, -1.2]
+radius = 0.5
+material = "gold"
+[[box]]
+lower = [0.6, 0, -1.4]
+upper = [1.4, 1.1, -0.6]
+material = "silver"
+[[cylinder]]
+start = [-1.9, 0, -1]
+end = [-1.9, 1.6, -1]
+radius = 0.3
+material = "polished"
+[[triangle]]
+vertices = [[-2.5, 0, -2], [2.5, 0, -2], [0, 2.5, -2.2]]
+material = "gold"
+"#;
+
 /// A room seen from inside, and a ball beyond its lamp that must not shadow anything.
 pub const ROOM: &str = r#"
 [camera]

@@ -26,14 +26,7 @@ impl Path<'_> {
     /// The radiance along a ray that has bounced so often. `importance` is the share of this radiance that reaches the
     /// lens; it decides only how probably the path goes on. The ray is inside of the bodies with the materials `inside`,
     /// the last of which it has entered last.
-    fn radiance(
-        &self,
-        ray: Ray,
-        min_distance: f64,
-        importance: DVec3,
-        bounce: u32,
-        inside: &[u32],
-    ) -> DVec3 {
+    fn radiance(&self, ray: Ray, min_distance: f64, importance: DVec3, bounce: u32, inside: &[u32]) -> DVec3 {
         let Some(hit) = intersect(self.scene, ray, min_distance) else {
             return background(self.scene, ray.direction);
         };

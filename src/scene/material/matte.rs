@@ -1,9 +1,9 @@
 //! A material that reflects light evenly in all directions.
 
 use super::{ADDS_LIGHT, Kind};
-use crate::scene::{Integrator, Texture};
 use crate::scene::texture::TextureTable;
 use crate::scene::toml::number::NonNegative;
+use crate::scene::{Integrator, Texture};
 use glam::DVec3;
 use serde::Deserialize;
 use std::f64::consts::FRAC_1_PI;

@@ -50,7 +50,8 @@ trait Kind {
 /// Why `whitted` cannot render a material.
 const NEEDS_PATH: &str = "it needs the integrator path";
 /// Why `path` cannot render a material that adds light.
-const ADDS_LIGHT: &str = "it reflects more light than arrives; use a color and a coefficient whose product is at most 1";
+const ADDS_LIGHT: &str =
+    "it reflects more light than arrives; use a color and a coefficient whose product is at most 1";
 /// Why `path` cannot render Suffern's highlights.
 const HAS_HIGHLIGHT: &str = "the highlights of ks and exponent belong to the integrator whitted; use matte or mirror \
                              without them";

@@ -1,9 +1,9 @@
 //! A matte material with a highlight.
 
 use super::{HAS_HIGHLIGHT, Kind, Matte};
-use crate::scene::{Integrator, Texture};
 use crate::scene::texture::TextureTable;
 use crate::scene::toml::number::NonNegative;
+use crate::scene::{Integrator, Texture};
 use glam::DVec3;
 use serde::Deserialize;
 

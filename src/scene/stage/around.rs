@@ -4,8 +4,8 @@ use super::{Stage, Staged};
 use crate::error::Result;
 use crate::scene::mesh::{Mesh, Placement};
 use crate::scene::{
-    Aperture, Background, Camera, CameraModel, Checker, DEFAULT_SHUTTER, DirectionalLight, Hole, Integrator, Lens, Light,
-    LightKind, Material, Matte, Plane, Scene, Sensor, Shaded, Triangle, View,
+    Aperture, Background, Camera, CameraModel, Checker, DEFAULT_SHUTTER, DirectionalLight, Hole, Integrator,
+    Lens, Light, LightKind, Material, Matte, Plane, Scene, Sensor, Shaded, Triangle, View,
 };
 use glam::{DVec3, Vec3};
 use std::ops::RangeInclusive;

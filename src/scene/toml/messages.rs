@@ -182,9 +182,10 @@ fn value_of(table: Option<&str>, key: &str) -> String {
             | "normal" | "position" | "direction" | "rotate_degrees",
         ) => THREE_NUMBERS,
         (_, "vertices") => "three corners, [[x, y, z], [x, y, z], [x, y, z]]",
-        (_, "integrator" | "material" | "file" | "preset" | "sensor" | "model" | "overlay" | "aperture_image") => {
-            "a name in quotes, such as \"name\""
-        }
+        (
+            _,
+            "integrator" | "material" | "file" | "preset" | "sensor" | "model" | "overlay" | "aperture_image",
+        ) => "a name in quotes, such as \"name\"",
         (_, "tolerance") => "a text like \"0.03 mm\", or a number of pixels",
         (_, "shadows" | "upright" | "focus_breathing" | "exposure_lock") => "true or false, without quotes",
         (_, "blades" | "max_bounces" | "abbe_number") => "a whole number, 0 or more",

@@ -1,0 +1,128 @@
+//! The integrator "path": it follows the oracle sample by sample, loses no light, and obeys the laws of optics.
+
+mod common;
+
+use anyhow::{Result, ensure};
+use common::scenes::PATHS;
+use common::{Gpu, film, prove, scene_of, settings_of};
+use thinlens::scene::Integrator;
+use thinlens::settings::{Sampler, Settings};
+use thinlens::verify::verify;
+
+/// Catches any factor, direction or decision of a path that is not that of the oracle: metal, glass in glass, lamps,
+/// mirrors, checkers and the sky, with each sampler.
+#[test]
+fn paths_follow_the_oracle() {
+    let check = |gpu: &Gpu| -> Result<String> {
+        let mut figures = Vec::new();
+        for (_, sampler) in Sampler::NAMES {
+            let mut settings = settings_of(PATHS, [64, 48], 8);
+            settings.estimator.sampler = sampler;
+            let agreement = verify(&mut gpu.renderer(&settings), &settings)?;
+            let differ = 100.0 * agreement.mismatch_share();
+            // These shapes are large, so that few paths are led astray.
+            ensure!(differ < 0.2, "{differ:.3}% of the samples differ");
+            figures.push(format!("{differ:.3}% differ"));
+        }
+        Ok(figures.join(", "))
+    };
+    prove(check, &["path"]);
+}
+
+/// A ball of this material, in a camera that sees nothing else, under a sky of radiance 1.
+fn furnace(material: &str) -> Settings {
+    let scene = format!(
+        "integrator = \"path\"\nmax_bounces = 64\n[camera]\neye = [0, 0, 3]\nlook_at = [0, 0, 0]\nvfov_degrees = 30\n\
+         lens_diameter = 0\nfocal_distance = 3\n[background]\ncolor = [1, 1, 1]\n{material}\n\
+         [[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"m\"\n"
+    );
+    settings_of(&scene, [48, 32], 64)
+}
+
+/// Catches materials that add or lose light: in a sky of one radiance, a white thing that absorbs nothing cannot be seen.
+/// Where paths may end by chance, it can be seen as noise, but not in the mean.
+#[test]
+fn white_things_vanish_in_a_white_sky() {
+    let gpu = Gpu::new();
+    let white = "color = [1, 1, 1]";
+    for (material, every_pixel, mean) in [
+        (format!("[matte.m]\n{white}"), 1e-5, 1e-6),
+        (format!("[mirror.m]\n{white}\nkr = 1"), 1e-5, 1e-6),
+        (format!("[metal.m]\n{white}"), 1e-5, 1e-6),
+        ("[glass.m]".to_owned(), 0.2, 1e-3),
+        ("[glass.m]\nindex = 2.4".to_owned(), 0.3, 2e-3),
+    ] {
+        let film = film(&gpu, &furnace(&material));
+        let off = film.iter().flat_map(|texel| &texel[..3]).map(|channel| f64::from(channel - 1.0));
+        let worst = off.clone().fold(0.0, |worst: f64, off| worst.max(off.abs()));
+        let sum = off.sum::<f64>() / (3 * film.len()) as f64;
+        assert!(
+            worst < every_pixel && sum.abs() < mean,
+            "{material}: {worst:.1e} at most, {sum:.1e} in the mean"
+        );
+    }
+}
+
+/// Catches a path that renders what it has no meaning for, and a message that does not say what to use instead.
+#[test]
+fn what_an_integrator_cannot_render_is_refused() {
+    let camera = "[camera]\neye = [0, 0, 3]\nlook_at = [0, 0, 0]\nvfov_degrees = 30\nlens_diameter = 0\n\
+                  focal_distance = 3\n";
+    let ball = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"m\"\n";
+    let matte = "[matte.m]\ncolor = [0.5, 0.5, 0.5]\n";
+    for (integrator, tables, expected) in [
+        (Integrator::Path, format!("[ambient]\nradiance = 1\n{matte}"), "give [background] a color"),
+        (
+            Integrator::Path,
+            format!("[[point]]\nposition = [0, 9, 0]\nradiance = 1\n{matte}"),
+            "use emissive materials",
+        ),
+        (
+            Integrator::Path,
+            "[phong.m]\ncolor = [0.5, 0.5, 0.5]\nka = 1\nkd = 1\nks = 1\nexponent = 9\n".into(),
+            "use matte",
+        ),
+        (
+            Integrator::Path,
+            "[mirror.m]\ncolor = [1, 1, 1]\nkr = 1\nks = 1\n".into(),
+            "use matte or mirror without them",
+        ),
+        (Integrator::Path, "[matte.m]\nkd = 1.5\ncolor = [0.5, 0.8, 0.5]\n".into(), "at most 1"),
+        (Integrator::Whitted, "[glass.m]\n".into(), "needs the integrator path"),
+        (Integrator::Whitted, "[metal.m]\ncolor = [1, 1, 1]\n".into(), "needs the integrator path"),
+    ] {
+        let mut settings = Settings::of_scene(scene_of(&format!("{camera}{tables}{ball}")));
+        settings.estimator.integrator = integrator;
+        let refused = settings.check().expect_err(&tables).to_string();
+        assert!(refused.contains(expected) && refused.starts_with("--integrator "), "{tables}: {refused}");
+    }
+}
+
+/// Catches a refraction that bends the wrong way, and absorption that does not grow with the way: what is seen through a
+/// slab of colored glass, at a right angle and at a slanted one, is what the laws of Snell, Fresnel and Beer say.
+#[test]
+fn a_slab_of_glass_obeys_snell_fresnel_and_beer() {
+    let gpu = Gpu::new();
+    let (index, thickness, left) = (1.5_f64, 0.5_f64, 0.4_f64);
+    for angle in [0.0_f64, 40.0, 75.0] {
+        // The camera looks along the slanted ray, at a slab of 0.5 that a white sky lies behind.
+        let (sine, cosine) = angle.to_radians().sin_cos();
+        let scene = format!(
+            "integrator = \"path\"\nmax_bounces = 64\n[camera]\neye = [{}, 0, {}]\nlook_at = [0, 0, 0]\n\
+             vfov_degrees = 0.01\nlens_diameter = 0\nfocal_distance = 3\n[background]\ncolor = [1, 1, 1]\n\
+             [glass.m]\nindex = {index}\ncolor = [{left}, {left}, {left}]\ncolor_distance = {thickness}\n\
+             [[box]]\nlower = [-1e3, -1e3, -0.5]\nupper = [1e3, 1e3, 0]\nmaterial = \"m\"\n",
+            9.0 * sine,
+            9.0 * cosine
+        );
+        let film = film(&gpu, &settings_of(&scene, [16, 16], 4096));
+        let mean: f64 = film.iter().map(|texel| f64::from(texel[0])).sum::<f64>() / film.len() as f64;
+        let inside = (1.0 - (sine / index).powi(2)).sqrt();
+        let across = ((cosine - index * inside) / (cosine + index * inside)).powi(2);
+        let along = ((index * cosine - inside) / (index * cosine + inside)).powi(2);
+        let (reflected, passed) = ((across + along) / 2.0, left.powf(1.0 / inside));
+        // What comes out in front or behind after any number of ways through the slab.
+        let expected = reflected + (1.0 - reflected).powi(2) * passed / (1.0 - reflected * passed);
+        assert!((mean - expected).abs() < 2e-3, "at {angle} degrees: {mean}, not {expected}");
+    }
+}
