@@ -44,6 +44,8 @@ pub mod binding {
         MATERIALS,
         /// The lights.
         LIGHTS,
+        /// The shapes that emit light.
+        LAMPS,
         /// What rays need of the scene wherever they are: the sky, the numbers of things, and all lights and listed shapes
         /// of a small scene.
         SCENE,
@@ -95,6 +97,8 @@ pub mod constant {
         TEXTURE_KINDS,
         /// The kinds of lights in the buffer of lights: a bit for each [`light`](super::light).
         LIGHT_KINDS,
+        /// Whether any bounded shape emits light.
+        HAS_LAMPS,
         /// Whether any triangle has normals at its corners.
         HAS_CORNER_NORMALS,
         /// Whether any shape moves.

@@ -29,9 +29,14 @@ fn twins() -> Vec<Twin> {
     vec![
         twin!("Texture", Texture, [color, kind, other_color, inverse_size, phase]),
         twin!("Material", Material, [color, ka, kd, ks, exponent, kind, roughness, index]),
+        twin!("Lamp", Lamp, [shape, radiance, end, velocity]),
         twin!("Light", Light, [radiance, kind, position_or_direction]),
         twin!("Environment", Environment, [horizon, zenith, ambient, bounding_radius]),
-        twin!("SceneCounts", SceneCounts, [list_ends, list_begin, lights, shadow_lights, max_tree_steps]),
+        twin!(
+            "SceneCounts",
+            SceneCounts,
+            [list_ends, list_begin, lights, shadow_lights, max_tree_steps, lamps, lamp_power]
+        ),
         twin!("ShapeRecord", ShapeRecord, [position, material, a, kind, b, index]),
         twin!("Scene", SceneBlock, [environment, counts, small_lights, small_list]),
         twin!("Counters", Counters, [rays, rejected_samples, listed_samples]),

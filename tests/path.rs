@@ -5,6 +5,8 @@ mod common;
 use anyhow::{Result, ensure};
 use common::scenes::PATHS;
 use common::{Gpu, film, prove, scene_of, settings_of};
+use glam::DVec3;
+use std::f64::consts::PI;
 use thinlens::scene::Integrator;
 use thinlens::settings::{Sampler, Settings};
 use thinlens::verify::verify;
@@ -124,5 +126,72 @@ fn a_slab_of_glass_obeys_snell_fresnel_and_beer() {
         // What comes out in front or behind after any number of ways through the slab.
         let expected = reflected + (1.0 - reflected).powi(2) * passed / (1.0 - reflected * passed);
         assert!((mean - expected).abs() < 2e-3, "at {angle} degrees: {mean}, not {expected}");
+    }
+}
+
+/// A floor of albedo 0.5 that is seen from nearby, slanted, and a lamp of radiance 3 above its middle.
+fn below(lamp: &str, samples: u32) -> Settings {
+    let scene = format!(
+        "integrator = \"path\"\nmax_bounces = 1\n[camera]\neye = [0.3, 0.2, 0.4]\nlook_at = [0, 0, 0]\n\
+         vfov_degrees = 0.01\nlens_diameter = 0\nfocal_distance = 1\n[matte.floor]\ncolor = [0.5, 0.5, 0.5]\n\
+         [emissive.lamp]\nradiance = 3\n[[plane]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\nmaterial = \"floor\"\n{lamp}"
+    );
+    settings_of(&scene, [16, 16], samples)
+}
+
+/// The irradiance at the origin of a floor below a polygon of radiance 1, by J. Lambert: the sum over its edges of the angle
+/// that each spans, times the cosine between the normals of the floor and of the plane through the edge.
+fn lambert(corners: &[DVec3]) -> f64 {
+    let next = corners.iter().cycle().skip(1);
+    let edge = |(a, b): (&DVec3, &DVec3)| a.angle_between(*b) * a.cross(*b).normalize().y;
+    (corners.iter().zip(next).map(edge).sum::<f64>() / 2.0).abs()
+}
+
+/// Catches a lamp that is too bright or too dark: the light of a sphere and of polygons has closed forms. A beginner's
+/// mistake, such as a forgotten cosine, passes for right as long as the oracle shares it.
+#[test]
+fn the_light_of_a_lamp_has_its_closed_form() {
+    let gpu = Gpu::new();
+    let corners = [[-0.5, 1.0, -0.4], [0.6, 1.2, 0.1], [0.1, 0.9, 0.8]].map(DVec3::from_array);
+    let [a, b, c] = corners.map(|corner| corner.to_array());
+    let triangle = format!("[[triangle]]\nvertices = [{a:?}, {b:?}, {c:?}]\nmaterial = \"lamp\"\n");
+    // Only the lower face of this box is seen.
+    let face =
+        [[-0.5, 1.0, -0.3], [0.7, 1.0, -0.3], [0.7, 1.0, 0.6], [-0.5, 1.0, 0.6]].map(DVec3::from_array);
+    let flat = "[[box]]\nlower = [-0.5, 1, -0.3]\nupper = [0.7, 1.1, 0.6]\nmaterial = \"lamp\"\n";
+    let sphere = "[[sphere]]\ncenter = [0.6, 0.8, 0]\nradius = 0.3\nmaterial = \"lamp\"\n";
+    // A sphere that is all above the floor counts by the cosine of its middle.
+    let of_sphere = PI * 0.3_f64.powi(2) * 0.8;
+    // A second lamp that is out of sight, to be chosen in vain.
+    let below_floor = "[[sphere]]\ncenter = [0, -2, 0]\nradius = 0.5\nmaterial = \"lamp\"\n";
+    for (lamp, irradiance) in [
+        (sphere.to_owned(), of_sphere),
+        (triangle, lambert(&corners)),
+        (flat.to_owned(), lambert(&face)),
+        (format!("{sphere}{below_floor}"), of_sphere),
+    ] {
+        let film = film(&gpu, &below(&lamp, 1024));
+        let mean = film.iter().map(|texel| f64::from(texel[0])).sum::<f64>() / film.len() as f64;
+        let expected = 0.5 / PI * 3.0 * irradiance;
+        assert!((mean / expected - 1.0).abs() < 3e-3, "{lamp}: {mean}, not {expected}");
+    }
+}
+
+/// Catches light that a lamp brings twice or not at all where another strategy finds it: a small lamp is found by light
+/// samples, a large one by the directions of the surface, and a room whose walls all glow is as bright everywhere as they are.
+#[test]
+fn the_strategies_share_the_light() {
+    let gpu = Gpu::new();
+    for material in ["[matte.m]\ncolor = [1, 1, 1]\n", "[metal.m]\ncolor = [1, 1, 1]\nroughness = 0.2\n"] {
+        let scene = format!(
+            "integrator = \"path\"\nmax_bounces = 1\n[camera]\neye = [0, 0, 3]\nlook_at = [0, 0, 0]\nvfov_degrees = 10\n\
+             lens_diameter = 0\nfocal_distance = 3\n[emissive.lamp]\nradiance = 1\n{material}\
+             [[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"m\"\n\
+             [[sphere]]\ncenter = [1, 0, 0]\nradius = 9\nmaterial = \"lamp\"\n"
+        );
+        let film = film(&gpu, &settings_of(&scene, [16, 16], 1024));
+        let mean = film.iter().map(|texel| f64::from(texel[0])).sum::<f64>() / film.len() as f64;
+        // Facets of this roughness lose little light to each other.
+        assert!((0.995..1.003).contains(&mean), "{material}: {mean}");
     }
 }

@@ -8,6 +8,7 @@
 
 #include "interface.glsl"
 #include "core/sobol.glsl"
+#include "core/warp.glsl"
 
 layout(constant_id = ID_SAMPLER) const uint SAMPLER = SAMPLER_RANDOM;
 
@@ -137,24 +138,6 @@ vec2 film_offset(const vec2 xi, const float jitter) {
 // of an absolute f32 position would move some samples across a pixel's edge.
 ivec2 landing_step(const vec2 offset) {
     return ivec2(floor(offset + 0.5));
-}
-
-// Concentric map of the unit square onto the unit disk, area preserving:
-// P. Shirley and K. Chiu, JGT 2(3), 1997; Suffern, chapter 6.
-//
-// Within a sector the angle stays in [-pi/4, pi/4], so a short Taylor series gives its sine and
-// cosine to f32 precision. Vulkan lets the built-in sin and cos err by 2^-11.
-vec2 concentric_disk(const vec2 xi) {
-    vec2 square = 2.0 * xi - 1.0;
-    bool wide = abs(square.x) > abs(square.y);
-    float radius = wide ? square.x : square.y;
-    float other = wide ? square.y : square.x;
-    float angle = radius == 0.0 ? 0.0 : 0.785398163 * other / radius;
-
-    float a2 = angle * angle;
-    float sine = angle * (1.0 + a2 * (-1.0 / 6.0 + a2 * (1.0 / 120.0 + a2 * (-1.0 / 5040.0 + a2 / 362880.0))));
-    float cosine = 1.0 + a2 * (-0.5 + a2 * (1.0 / 24.0 + a2 * (-1.0 / 720.0 + a2 / 40320.0)));
-    return radius * (wide ? vec2(cosine, sine) : vec2(sine, cosine));
 }
 
 #endif

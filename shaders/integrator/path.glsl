@@ -6,6 +6,7 @@
 
 #include "core/sampling.glsl"
 #include "integrator/media.glsl"
+#include "light/lamps.glsl"
 #include "light/light.glsl"
 #include "material/material.glsl"
 
@@ -23,6 +24,30 @@ float survival_probability(const vec3 throughput, const uint bounce) {
     return smaller(most, MOST_SURVIVAL);
 }
 
+// The weight of a sample that another strategy could have chosen too, with this density: the power heuristic of E. Veach,
+// "Robust Monte Carlo Methods for Light Transport Simulation", 1997, section 9.2.
+float strategy_weight(const float own, const float other) {
+    return own * own / (own * own + other * other);
+}
+
+// The light of a lamp that the surface scatters towards the viewer.
+vec3 light_of_lamp(
+    const Material material, const vec3 color, const SurfacePoint at, const vec3 to_viewer, const vec4 xi,
+    inout uint rays, inout bool given_up
+) {
+    LampSample lamp = sample_lamps(at.offset_position, xi);
+    Scattered scattered = material_scattered(material, color, at, lamp.direction, to_viewer);
+    if (scattered.density <= 0.0 || lamp.density <= 0.0) {
+        return vec3(0.0);
+    }
+    ++rays;
+    if (occluded(Ray(at.offset_position, lamp.direction), before_lamp(lamp), given_up)) {
+        return vec3(0.0);
+    }
+    float weight = strategy_weight(lamp.density, scattered.density);
+    return (weight / lamp.density) * scattered.share * lamp.radiance;
+}
+
 // The radiance that arrives along the ray, by light that was scattered at most max_bounces times. rays counts every ray
 // traced. given_up is true if a search took too long; the radiance is then of no use.
 vec3 radiance(Ray ray, const PathSampler path, const uint max_bounces, inout uint rays, out bool given_up) {
@@ -30,6 +55,7 @@ vec3 radiance(Ray ray, const PathSampler path, const uint max_bounces, inout uin
     vec3 throughput = vec3(1.0);
     given_up = false;
     Media here = in_air();
+    float density = 0.0; // with which the direction of the ray was chosen; 0 if it was the only one
     uint bounce = 0u;
     do {
         ++rays;
@@ -50,13 +76,22 @@ vec3 radiance(Ray ray, const PathSampler path, const uint max_bounces, inout uin
                 at.index_ratio = index_of(beyond) / index_of(here);
             }
         }
-        sum += throughput * material_emission(material, color);
+        vec3 emitted = material_emission(material, color);
+        if (HAS_LAMPS == 1u && density > 0.0 && emitted != vec3(0.0) && hit.kind < SHAPE_PLANE) {
+            emitted *= strategy_weight(density, lamp_density(hit, ray.origin, ray.direction, at, emitted));
+        }
+        sum += throughput * emitted;
         if (bounce == max_bounces) {
             break;
+        }
+        if (HAS_LAMPS == 1u) {
+            vec4 of_lamp = path_values(path, bounce, USE_LIGHT);
+            sum += throughput * light_of_lamp(material, color, at, -ray.direction, of_lamp, rays, given_up);
         }
         vec4 xi = path_values(path, bounce, USE_DIRECTION);
         Scatter scatter = material_sample(material, color, at, -ray.direction, xi.xyz);
         throughput *= scatter.weight;
+        density = scatter.density;
         float survival = survival_probability(throughput, bounce);
         if (xi.w >= survival) {
             break;

@@ -21,6 +21,7 @@ float fresnel(const float cosine, const float ratio, out float refracted) {
     return 0.5 * (parallel * parallel + perpendicular * perpendicular);
 }
 
+// Lamps are met by chance only: so the density is given as 0, as that of a single direction.
 Scatter glass_sample(
     const Material material, const vec3 color, const SurfacePoint at, const vec3 to_viewer, const vec3 xi
 ) {
@@ -42,7 +43,7 @@ Scatter glass_sample(
         return NO_SCATTER;
     }
     float unblocked = smooth_surface ? 1.0 : unblocked_share(viewer, other, alpha);
-    return Scatter(direction, vec3(unblocked));
+    return Scatter(direction, vec3(unblocked), 0.0);
 }
 
 #endif

@@ -59,4 +59,17 @@ Scatter material_sample(
     return value;
 }
 
+// Both parts are zero if the material scatters into single directions, or if the light is behind the surface.
+Scattered material_scattered(
+    const Material material, const vec3 color, const SurfacePoint at, const vec3 to_light, const vec3 to_viewer
+) {
+    Scattered value = Scattered(vec3(0.0), 0.0);
+    if (dot(at.normal, to_light) <= 0.0 || dot(at.shading_normal, to_light) <= 0.0) {
+        return value;
+    }
+#define SCATTERED(KIND, kind_) IF_MATERIAL(KIND) { value = kind_##_scattered(material, color, at, to_light, to_viewer); }
+    FOR_EACH_MATERIAL_SCATTERED(SCATTERED)
+    return value;
+}
+
 #endif

@@ -28,7 +28,15 @@ Scatter matte_sample(
     float height = sqrt(larger(1.0 - dot(disk, disk), 0.0));
     vec3 direction = around_normal(at.shading_normal, vec3(disk, height));
     // Where the normals of a mesh are smoothed, a direction may lead below the surface. No light comes from there.
-    return Scatter(direction, dot(direction, at.normal) > 0.0 ? material.kd * color : vec3(0.0));
+    vec3 weight = dot(direction, at.normal) > 0.0 ? material.kd * color : vec3(0.0);
+    return Scatter(direction, weight, INVERSE_PI * height);
+}
+
+Scattered matte_scattered(
+    const Material material, const vec3 color, const SurfacePoint at, const vec3 to_light, const vec3 to_viewer
+) {
+    float density = INVERSE_PI * dot(at.shading_normal, to_light);
+    return Scattered(material.kd * color * density, density);
 }
 
 #endif

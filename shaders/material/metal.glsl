@@ -29,7 +29,23 @@ Scatter metal_sample(
     if (other.z <= 0.0 || dot(direction, at.normal) <= 0.0) {
         return NO_SCATTER;
     }
-    return Scatter(direction, metal_reflectance(color, dot(viewer, facet)) * unblocked_share(viewer, other, alpha));
+    vec3 weight = metal_reflectance(color, dot(viewer, facet)) * unblocked_share(viewer, other, alpha);
+    return Scatter(direction, weight, mirrored_density(viewer, facet, alpha));
+}
+
+Scattered metal_scattered(
+    const Material material, const vec3 color, const SurfacePoint at, const vec3 to_light, const vec3 to_viewer
+) {
+    if (is_smooth(material.roughness)) {
+        return Scattered(vec3(0.0), 0.0);
+    }
+    float alpha = facet_alpha(material.roughness);
+    vec3 viewer = viewer_to_local(at, to_viewer);
+    vec3 light = to_local(at, to_light);
+    vec3 facet = normalize(viewer + light);
+    float density = mirrored_density(viewer, facet, alpha);
+    vec3 weight = metal_reflectance(color, dot(viewer, facet)) * unblocked_share(viewer, light, alpha);
+    return Scattered(weight * density, density);
 }
 
 #endif

@@ -16,7 +16,7 @@ Scatter mirror_mirrored(const Material material, const vec3 color, const Surface
     vec3 mirrored = reflect(-to_viewer, at.shading_normal);
     // A direction that would enter the surface is mirrored out of the surface again.
     mirrored -= 2.0 * smaller(dot(mirrored, at.normal), 0.0) * at.normal;
-    return Scatter(mirrored, color);
+    return Scatter(mirrored, color, 0.0);
 }
 
 // There is one direction only.

@@ -11,6 +11,8 @@
 //       The direction of the mirror image that the viewer sees.
 //   Scatter KIND_sample(Material material, vec3 color, SurfacePoint at, vec3 to_viewer, vec3 xi)
 //       A random direction from which light is scattered towards the viewer, chosen by three values in [0, 1).
+//   Scattered KIND_scattered(Material material, vec3 color, SurfacePoint at, vec3 to_light, vec3 to_viewer)
+//       The light that is scattered from another direction. A kind without it scatters into single directions only.
 //
 // color is the value of the material's texture at the point. face_forward() has turned the normals at the point.
 
@@ -37,9 +39,16 @@ struct Material {
 struct Scatter {
     vec3 direction;
     vec3 weight;
+    float density; // per solid angle; 0 where the material scatters into single directions
 };
 
-const Scatter NO_SCATTER = Scatter(vec3(0.0), vec3(0.0));
+const Scatter NO_SCATTER = Scatter(vec3(0.0), vec3(0.0), 0.0);
+
+// What a material scatters from one direction towards the viewer.
+struct Scattered {
+    vec3 share; // the BRDF times the cosine
+    float density; // with which KIND_sample() chooses this direction, per solid angle
+};
 
 // The kinds of materials in the scene, a bit for each: the code for all other kinds is left out.
 layout(constant_id = ID_MATERIAL_KINDS) const uint MATERIAL_KINDS = 0u;

@@ -15,6 +15,7 @@ struct Nearest {
 struct Hit {
     float distance; // MISS if the ray meets nothing; the other members are meaningless then
     uint material;
+    uint kind; // of the shape
     Surface surface;
     vec3 displacement; // how far the shape is from where it is in the middle of the exposure
 };
@@ -31,7 +32,7 @@ bool all_shapes_are_kept() {
 // invocation, so copies are gone through instead of indexed: each kind goes through its own, and reads only the members
 // that it needs.
 Hit hit_of(const Ray ray, const vec3 inverse_direction, const Nearest nearest, const vec3 position) {
-    Hit hit = Hit(nearest.distance, 0u, NO_SURFACE, vec3(0.0));
+    Hit hit = Hit(nearest.distance, 0u, 0u, NO_SURFACE, vec3(0.0));
     ShapeRecord fetched;
     vec3 fetched_velocity = vec3(0.0);
     if (!all_shapes_are_kept()) {
@@ -55,7 +56,7 @@ Hit hit_of(const Ray ray, const vec3 inverse_direction, const Nearest nearest, c
 #define KEEP_HIT(KIND, kind_) \
     Surface surface = kind_##_surface(ray, inverse_direction, shape, position); \
     if (all_shapes_are_kept() ? nearest.record >= KIND##_BEGIN : IS_OF_KIND(SHAPE_KINDS, shape.kind, SHAPE_##KIND)) { \
-        hit = Hit(nearest.distance, shape.material, surface, displacement); \
+        hit = Hit(nearest.distance, shape.material, SHAPE_##KIND, surface, displacement); \
     }
 #define HIT_BOUNDED(KIND, kind_) \
     if (HAS_KIND(SHAPE_KINDS, SHAPE_##KIND)) { \

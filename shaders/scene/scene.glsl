@@ -37,6 +37,8 @@ struct SceneCounts {
     uint lights;
     uint shadow_lights; // these come first, and cast shadows
     uint max_tree_steps; // a ray that needs more is given up
+    uint lamps;
+    float lamp_power; // the sum over the lamps of luminance times area
 };
 
 // The kinds of shapes in the scene, a bit for each: the code for all other kinds is left out.

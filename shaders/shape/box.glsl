@@ -49,6 +49,21 @@ Surface box_surface(const Ray ray, const vec3 inverse_direction, const ShapeReco
     return Surface(axis, offset, false, 0.0, vec3(0.0), uv);
 }
 
+// The first value chooses one of the six faces by its area, and then a place along an edge of it.
+vec3 box_point(const ShapeRecord box, const vec2 xi, out vec3 normal) {
+    vec3 size = box.a - box.position;
+    vec3 areas = size.yzx * size.zxy; // of the faces perpendicular to x, y and z
+    float at = xi.x * 2.0 * (areas.x + areas.y + areas.z);
+    uint axis = at < 2.0 * areas.x ? 0u : at < 2.0 * (areas.x + areas.y) ? 1u : 2u;
+    at -= axis == 0u ? 0.0 : 2.0 * areas.x + (axis == 1u ? 0.0 : 2.0 * areas.y);
+    float along = at / areas[axis];
+    bool upper = along >= 1.0;
+    along = clamp(upper ? along - 1.0 : along, 0.0, 1.0);
+    vec3 share = axis == 0u ? vec3(upper, along, xi.y) : axis == 1u ? vec3(xi.y, upper, along) : vec3(along, xi.y, upper);
+    normal = vec3(axis == 0u, axis == 1u, axis == 2u);
+    return box.position + share * size;
+}
+
 void move_box(inout ShapeRecord box, const vec3 displacement) {
     box.position += displacement;
     box.a += displacement;

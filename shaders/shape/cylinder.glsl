@@ -43,6 +43,11 @@ Surface cylinder_surface(const Ray ray, const vec3 inverse_direction, const Shap
     return Surface(from_axis, cylinder.b.x, true, cylinder.b.x + cylinder.b.y, vec3(0.0), uv);
 }
 
+vec3 cylinder_point(const ShapeRecord cylinder, const vec2 xi, out vec3 normal) {
+    normal = around_normal(cylinder.a, vec3(on_circle(xi.x), 0.0));
+    return cylinder.position + cylinder.b.x * normal + (2.0 * xi.y - 1.0) * cylinder.b.y * cylinder.a;
+}
+
 void move_cylinder(inout ShapeRecord cylinder, const vec3 displacement) {
     cylinder.position += displacement;
 }

@@ -9,11 +9,17 @@
 // A kind that can move also has
 //
 //   void move_KIND(inout ShapeRecord shape, vec3 displacement)
+//
+// and one that can be a lamp has
+//
+//   vec3 KIND_point(ShapeRecord shape, vec2 xi, out vec3 normal)
+//       A point of the surface, chosen evenly by two values in [0, 1), and the unit normal there, to either side.
 
 #ifndef RECORD_GLSL
 #define RECORD_GLSL
 
 #include "core/ray.glsl"
+#include "core/warp.glsl"
 
 // The record of a shape, in the list or in the tree. The kind defines what position, a and b mean.
 struct ShapeRecord {

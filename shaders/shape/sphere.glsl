@@ -32,4 +32,9 @@ void move_sphere(inout ShapeRecord sphere, const vec3 displacement) {
     sphere.position += displacement;
 }
 
+vec3 sphere_point(const ShapeRecord sphere, const vec2 xi, out vec3 normal) {
+    normal = in_cone(xi, -1.0);
+    return sphere.position + sphere.a.x * normal;
+}
+
 #endif

@@ -61,6 +61,12 @@ Surface triangle_surface(const Ray ray, const vec3 inverse_direction, const Shap
     return Surface(normal, offset, false, size, shading_normal, barycentric);
 }
 
+vec3 triangle_point(const ShapeRecord triangle, const vec2 xi, out vec3 normal) {
+    normal = normalize(cross(triangle.a, triangle.b));
+    float from_corner = sqrt(xi.x);
+    return triangle.position + from_corner * ((1.0 - xi.y) * triangle.a + xi.y * triangle.b);
+}
+
 void move_triangle(inout ShapeRecord triangle, const vec3 displacement) {
     triangle.position += displacement;
 }

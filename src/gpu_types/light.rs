@@ -1,10 +1,12 @@
 //! Lights in the form that the shaders read. Each kind of light has a match arm.
 
+use super::ShapeRecord;
 use super::denormal::flush_denormals;
+use super::shape::on_device;
 use crate::interface::light;
-use crate::scene::{self, LightKind, Scene};
+use crate::scene::{self, LightKind, Scene, Shaded};
 use bytemuck::{Pod, Zeroable};
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 /// `Light` of light/record.glsl.
 #[repr(C)]
@@ -45,6 +47,55 @@ impl Light {
         }
     }
 }
+
+/// `Lamp` of light/lamps.glsl.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct Lamp {
+    pub shape: ShapeRecord,
+    pub radiance: [f32; 3],
+    pub end: f32,
+    pub velocity: [f32; 3],
+    pub pad0: u32,
+}
+
+impl Lamp {
+    /// The lamps of a scene in coordinates whose origin is `origin`, and the sum of luminance times area.
+    pub fn all(scene: &Scene, origin: DVec3) -> (Vec<Self>, f64) {
+        let emitted = |of: &Shaded| match &scene.materials[of.material as usize] {
+            scene::Material::Emissive(lamp) => lamp.radiance,
+            _ => Vec3::ZERO,
+        };
+        if !scene.materials.iter().any(|of| matches!(of, scene::Material::Emissive(_))) {
+            return (Vec::new(), 0.0);
+        }
+        let mut power = 0.0;
+        let mut ends = Vec::new();
+        let mut lamps = Vec::new();
+        for of in scene.shapes.iter() {
+            let radiance = emitted(of);
+            let of_lamp = f64::from(radiance.dot(LUMINANCE)) * of.shape.area().unwrap_or(0.0);
+            if of_lamp > 0.0 {
+                power += of_lamp;
+                ends.push(power);
+                lamps.push(Self {
+                    shape: ShapeRecord::new(&on_device(of, origin), 0),
+                    radiance: flush_denormals(radiance),
+                    end: 0.0,
+                    velocity: flush_denormals(of.velocity),
+                    pad0: 0,
+                });
+            }
+        }
+        for (lamp, end) in lamps.iter_mut().zip(ends) {
+            lamp.end = (end / power) as f32;
+        }
+        (lamps, power)
+    }
+}
+
+/// The luminance of linear red, green and blue.
+const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 
 impl Environment {
     /// The sky and the ambient light of a scene whose bounded shapes lie within `bounding_radius` of the origin.

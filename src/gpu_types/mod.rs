@@ -12,7 +12,7 @@ mod shape;
 
 pub use aperture::{Aperture, ApertureBuffer, aperture_constant, aperture_sums};
 pub use brightest::Brightest;
-pub use light::{Environment, Light};
+pub use light::{Environment, Lamp, Light};
 pub use material::{Material, Texture};
 pub use scene::{SceneBlock, SceneColors, SceneCounts, SceneData};
 pub use shape::ShapeRecord;

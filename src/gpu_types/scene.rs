@@ -2,7 +2,7 @@
 
 use super::denormal::flush_denormals;
 use super::shape::on_device;
-use super::{Environment, Light, Material, ShapeRecord, TreeNode};
+use super::{Environment, Lamp, Light, Material, ShapeRecord, TreeNode};
 use crate::interface::{SMALL_SCENE, shape};
 use crate::scene::{Bvh, Node, Record, SceneRef, Shaded, Shape, Triangle};
 use bytemuck::{Pod, Zeroable};
@@ -47,6 +47,10 @@ pub struct SceneColors {
     pub shadow_lights: u32,
     /// A bit for each kind of light.
     pub light_kinds: u32,
+    /// The shapes that emit light.
+    pub lamps: Vec<Lamp>,
+    /// The sum over the lamps of luminance times area.
+    pub lamp_power: f32,
     pub environment: Environment,
     /// Whether any material mirrors.
     pub reflects: bool,
@@ -65,6 +69,9 @@ pub struct SceneCounts {
     pub lights: u32,
     pub shadow_lights: u32,
     pub max_tree_steps: u32,
+    pub lamps: u32,
+    pub lamp_power: f32,
+    pub pad0: [u32; 2],
 }
 
 /// The block `Scene` of scene.glsl.
@@ -160,6 +167,9 @@ impl SceneData {
                 lights: count(colors.lights.len()),
                 shadow_lights: colors.shadow_lights,
                 max_tree_steps: count(nodes.len()),
+                lamps: count(colors.lamps.len()),
+                lamp_power: colors.lamp_power,
+                pad0: [0; 2],
             },
             shape_kinds: bits(shapes.iter().map(|shape| shape.kind)),
             normals: corner_normals(in_tree),
@@ -180,6 +190,7 @@ impl SceneColors {
         let shadowing = || scene.lights.iter().filter(|light| light.shadows);
         let lights = shadowing().chain(scene.lights.iter().filter(|light| !light.shadows));
         let lights: Vec<_> = lights.map(|of| Light::new(of, origin)).collect();
+        let (lamps, lamp_power) = Lamp::all(scene, origin);
         let materials: Vec<_> = scene.materials.iter().map(|of| Material::new(of, origin)).collect();
         Self {
             reflects: scene.materials.iter().any(|of| of.reflectance() != Vec3::ZERO),
@@ -189,6 +200,8 @@ impl SceneColors {
             light_kinds: bits(lights.iter().map(|light| light.kind)),
             shadow_lights: u32::try_from(shadowing().count()).unwrap_or(u32::MAX),
             lights,
+            lamps,
+            lamp_power: lamp_power as f32,
             environment: Environment::new(scene, reach),
         }
     }

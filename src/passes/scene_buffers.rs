@@ -20,6 +20,7 @@ const SAMPLER_LOOP_STEPS: u64 = 24 + 16;
 pub struct SceneBuffers {
     shapes: Arc<ShapeBuffers>,
     bindings: Vec<(u32, Binding)>,
+    lamps: Binding,
     constants: Vec<(u32, u32)>,
     counts: SceneCounts,
     /// How many entries the stack of the tree has; 0 where there is no tree.
@@ -114,7 +115,8 @@ impl SceneBuffers {
         ];
         let constants = shapes.constants(colors);
         let tree_depth = shapes.stack_size(shapes.place(colors));
-        Ok(Self { shapes, bindings, constants, counts, tree_depth, reflects: colors.reflects })
+        let lamps = buffer(device, "lamps", &colors.lamps)?;
+        Ok(Self { shapes, bindings, lamps, constants, counts, tree_depth, reflects: colors.reflects })
     }
 
     /// Whether some of the scene's shapes are in a tree.
@@ -130,7 +132,7 @@ impl SceneBuffers {
     /// The most rays that one sample can need, if rays bounce so often: for each surface, one that reaches it and one
     /// from there to each light.
     pub fn max_rays(&self, bounces: u32) -> u32 {
-        (1 + bounces).saturating_mul(1 + self.counts.lights)
+        (1 + bounces).saturating_mul(1 + self.most_lights())
     }
 
     /// The most iterations that the loops of the trace pass can make for one sample, if rays bounce so often: over
@@ -139,7 +141,7 @@ impl SceneBuffers {
         let too_deep = u64::from(self.tree_depth.saturating_sub(SPELLED_OUT_STACK));
         let tree = u64::from(self.counts.max_tree_steps) * (1 + too_deep);
         let shapes = u64::from(self.listed_shapes()) + tree;
-        let lights = u64::from(self.counts.lights);
+        let lights = u64::from(self.most_lights());
         SAMPLER_LOOP_STEPS + (1 + u64::from(bounces)) * (1 + shapes + lights * (1 + shapes))
     }
 
@@ -159,9 +161,19 @@ impl SceneBuffers {
         )
     }
 
+    /// The most lights that are looked at from a surface: each light, or one of the lamps.
+    fn most_lights(&self) -> u32 {
+        self.counts.lights.max(u32::from(self.counts.lamps > 0))
+    }
+
     /// The number of shapes in the list.
     fn listed_shapes(&self) -> u32 {
         self.counts.list_ends[shape::NAMES.len() - 1]
+    }
+
+    /// The binding of `shaders/light/lamps.glsl`.
+    pub fn lamps(&self) -> (u32, Binding) {
+        (binding::LAMPS, self.lamps.clone())
     }
 
     /// Every binding of `shaders/scene/scene.glsl` and `bvh.glsl`.
@@ -187,7 +199,8 @@ impl ShapeBuffers {
 
     fn counts(&self, colors: &SceneColors) -> SceneCounts {
         let (lights, shadow_lights) = (count(colors.lights.len()), colors.shadow_lights);
-        SceneCounts { lights, shadow_lights, ..self.counts }
+        let (lamps, lamp_power) = (count(colors.lamps.len()), colors.lamp_power);
+        SceneCounts { lights, shadow_lights, lamps, lamp_power, ..self.counts }
     }
 
     /// How many entries the stack of the tree has; 0 where there is no tree.
@@ -220,6 +233,7 @@ impl ShapeBuffers {
             (constant::MATERIAL_KINDS, colors.material_kinds),
             (constant::TEXTURE_KINDS, colors.texture_kinds),
             (constant::LIGHT_KINDS, colors.light_kinds),
+            (constant::HAS_LAMPS, (!colors.lamps.is_empty()).into()),
             (constant::HAS_CORNER_NORMALS, self.has_normals.into()),
             (constant::MAX_TREE_STEPS, known_if(kept, counts.max_tree_steps)),
         ];

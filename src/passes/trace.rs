@@ -11,6 +11,8 @@ use std::sync::Arc;
 pub struct Trace {
     pipeline: ComputePipeline,
     tile: BlueNoiseTile,
+    /// Whether the integrator looks for lamps.
+    has_lamps: bool,
 }
 
 impl Trace {
@@ -28,7 +30,8 @@ impl Trace {
     ) -> Result<Self> {
         let constants = [scene.constants(), estimator].concat();
         let pipeline = ComputePipeline::new(device, shader, &constants)?;
-        Ok(Self { pipeline, tile: tile.clone() })
+        let has_lamps = shader.interface().resources.contains_key(&binding::LAMPS);
+        Ok(Self { pipeline, tile: tile.clone(), has_lamps })
     }
 
     /// The pass traces `scene` through `aperture` into the tracing image `traced`, and adds to `counters`. Once some
@@ -43,6 +46,7 @@ impl Trace {
         list: usize,
     ) -> Result<BindingSet> {
         let mut bindings = scene.bindings();
+        bindings.extend(self.has_lamps.then(|| scene.lamps()));
         bindings.extend(aperture.bindings());
         bindings.extend([
             (binding::TRACED_IMAGE, Binding::Image(Arc::clone(traced))),

@@ -2,7 +2,7 @@
 
 use super::Ray;
 use super::shape::{Crossing, crossing};
-use crate::scene::{Scene, Shaded};
+use crate::scene::{Scene, Shaded, Shape};
 use glam::{DVec2, DVec3};
 
 /// A point where a ray meets a surface.
@@ -23,6 +23,8 @@ pub struct Hit {
     pub material: u32,
     /// The velocity of the shape, in scene units per second.
     pub velocity: DVec3,
+    /// The shape, where it is in the middle of the exposure.
+    pub shape: Shape,
 }
 
 /// The nearest hit farther than `least`.
@@ -40,5 +42,14 @@ fn hit(of: &Shaded, ray: Ray, least: f64) -> Option<Hit> {
     let from_behind = normal.dot(ray.direction) > 0.0;
     let side = if from_behind { -1.0 } else { 1.0 };
     let (normal, shading_normal) = (side * normal, side * shading_normal);
-    Some(Hit { distance, normal, shading_normal, from_behind, uv, material: of.material, velocity })
+    Some(Hit {
+        distance,
+        normal,
+        shading_normal,
+        from_behind,
+        uv,
+        material: of.material,
+        velocity,
+        shape: of.shape,
+    })
 }

@@ -1,6 +1,7 @@
 //! The samplers, and the map from the unit square to the unit disk.
 
 use crate::settings::Sampler;
+use glam::DVec3;
 use std::f64::consts::FRAC_PI_4;
 
 /// The tile of `examples/blue_noise_tile.rs`: a number of 16 bits for each pixel, row by row.
@@ -180,4 +181,13 @@ pub fn concentric_disk(xi: [f64; 2]) -> [f64; 2] {
     let (radius, angle) =
         if a.abs() > b.abs() { (a, FRAC_PI_4 * (b / a)) } else { (b, FRAC_PI_4 * (2.0 - a / b)) };
     [radius * angle.cos(), radius * angle.sin()]
+}
+
+/// A direction in the cone around the y axis with this cosine at its edge, evenly over its solid angle.
+pub fn in_cone(xi: [f64; 2], cosine: f64) -> DVec3 {
+    let [x, z] = concentric_disk(xi);
+    let radius = x.hypot(z);
+    let height = 1.0 - radius * radius * (1.0 - cosine);
+    let wide = (1.0 - height * height).max(0.0).sqrt();
+    if radius == 0.0 { DVec3::Y } else { DVec3::new(wide * x / radius, height, wide * z / radius) }
 }

@@ -109,6 +109,26 @@ index = 1.6
 roughness = 0.35
 [emissive.lamp]
 radiance = 4
+[emissive.tube]
+color = [1, 0.3, 0.2]
+radiance = 6
+[[sphere]]
+center = [0.7, 1.6, 1]
+radius = 0.1
+material = "tube"
+velocity = [9, 0, 0]
+[[box]]
+lower = [-2.4, 1.9, -0.3]
+upper = [-2, 2, 0.6]
+material = "lamp"
+[[cylinder]]
+start = [0, 2.2, 0.2]
+end = [0.9, 2.3, 0.5]
+radius = 0.06
+material = "tube"
+[[triangle]]
+vertices = [[-1, 2.4, 1], [-0.2, 2.4, 1.2], [-0.6, 2.5, 0.4]]
+material = "lamp"
 [[plane]]
 point = [0, 0, 0]
 normal = [0, 1, 0]

@@ -4,7 +4,8 @@ use super::{Limits, MIN_DISTANCE, PathValues};
 use crate::reference::Ray;
 use crate::reference::intersect::intersect;
 use crate::reference::light::background;
-use crate::reference::material::kind_of;
+use crate::reference::light::lamps::Lamps;
+use crate::reference::material::{Kind, Scatter, kind_of};
 use crate::reference::sampler::Use;
 use crate::reference::surface::Surface;
 use crate::scene::{Glass, Material, Scene};
@@ -12,12 +13,13 @@ use glam::DVec3;
 
 /// The radiance that arrives along `ray`.
 pub(super) fn radiance(scene: &Scene, ray: Ray, limits: &Limits, values: PathValues<'_>) -> DVec3 {
-    Path { scene, limits, values }.radiance(ray, 0.0, DVec3::ONE, 0, &[])
+    Path { scene, lamps: Lamps::of(scene), limits, values }.radiance(ray, 0.0, DVec3::ONE, 0, &[], None)
 }
 
 /// What stays the same along a path.
 struct Path<'a> {
     scene: &'a Scene,
+    lamps: Lamps<'a>,
     limits: &'a Limits,
     values: PathValues<'a>,
 }
@@ -25,8 +27,16 @@ struct Path<'a> {
 impl Path<'_> {
     /// The radiance along a ray that has bounced so often. `importance` is the share of this radiance that reaches the
     /// lens; it decides only how probably the path goes on. The ray is inside of the bodies with the materials `inside`,
-    /// the last of which it has entered last.
-    fn radiance(&self, ray: Ray, min_distance: f64, importance: DVec3, bounce: u32, inside: &[u32]) -> DVec3 {
+    /// the last of which it has entered last. Its direction was chosen with this density, unless it was the only one.
+    fn radiance(
+        &self,
+        ray: Ray,
+        min_distance: f64,
+        importance: DVec3,
+        bounce: u32,
+        inside: &[u32],
+        density: Option<f64>,
+    ) -> DVec3 {
         let Some(hit) = intersect(self.scene, ray, min_distance) else {
             return background(self.scene, ray.direction);
         };
@@ -46,26 +56,59 @@ impl Path<'_> {
             surface.index_ratio = self.index(&beyond) / self.index(inside);
         }
         let material = kind_of(material);
-        let emitted = left * material.emission();
-        if bounce == self.limits.max_bounces {
-            return emitted;
+        let mut emitted = material.emission();
+        if let Some(density) = density.filter(|_| emitted != DVec3::ZERO) {
+            emitted *= share(density, self.lamps.density(&ray, &hit, emitted));
         }
+        if bounce == self.limits.max_bounces {
+            return left * emitted;
+        }
+        let min_distance = MIN_DISTANCE * surface.magnitude;
+        let from_lamp = self.light_of_lamp(material, &surface, &ray, min_distance, bounce);
+        let shown = left * (emitted + from_lamp);
         let [first, second, third, chance] = (self.values)(bounce, Use::Direction);
-        let scattered = material.sample(&surface, -ray.direction, [first, second, third]);
-        let Some((direction, weight)) = scattered else {
-            return emitted;
+        let Some(Scatter { direction, weight, density }) =
+            material.sample(&surface, -ray.direction, [first, second, third])
+        else {
+            return shown;
         };
         let survival = survival((importance * weight).max_element(), bounce);
         if chance >= survival {
-            return emitted;
+            return shown;
         }
         let weight = weight / survival;
         let further = Ray { origin: surface.position, direction, time: ray.time };
-        let min_distance = MIN_DISTANCE * surface.magnitude;
         let passes = direction.dot(surface.normal) < 0.0;
         let inside = if passes { &beyond } else { inside };
-        emitted
-            + left * weight * self.radiance(further, min_distance, importance * weight, bounce + 1, inside)
+        let importance = importance * weight;
+        shown + left * weight * self.radiance(further, min_distance, importance, bounce + 1, inside, density)
+    }
+
+    /// The light of a lamp that the surface scatters back along the ray.
+    fn light_of_lamp(
+        &self,
+        material: &dyn Kind,
+        surface: &Surface,
+        ray: &Ray,
+        min_distance: f64,
+        bounce: u32,
+    ) -> DVec3 {
+        let values = || (self.values)(bounce, Use::Light);
+        let Some(lamp) = self.lamps.sample(surface.position, ray.time, values()) else {
+            return DVec3::ZERO;
+        };
+        let in_front =
+            surface.normal.dot(lamp.direction) > 0.0 && surface.shading_normal.dot(lamp.direction) > 0.0;
+        let scattered = material.scattered(surface, lamp.direction, -ray.direction).filter(|_| in_front);
+        let Some((reflected, density)) = scattered else {
+            return DVec3::ZERO;
+        };
+        let shadow_ray = Ray { origin: surface.position, direction: lamp.direction, time: ray.time };
+        let blocker = intersect(self.scene, shadow_ray, min_distance);
+        if blocker.is_some_and(|hit| hit.distance < 0.9999 * lamp.distance) {
+            return DVec3::ZERO;
+        }
+        share(lamp.density, density) * reflected * lamp.radiance / lamp.density
     }
 
     /// The body that a ray entered last, if it is inside of any.
@@ -86,6 +129,12 @@ impl Path<'_> {
             body.color.as_dvec3().max(DVec3::splat(1e-6)).powf(distance / f64::from(body.color_distance))
         })
     }
+}
+
+/// The share that a sample counts whose direction another strategy chooses with the other density: the power heuristic of
+/// E. Veach, 1997.
+fn share(own: f64, other: f64) -> f64 {
+    own.powi(2) / (own.powi(2) + other.powi(2))
 }
 
 /// The probability that a path goes on. Paths of one or two surfaces do, unless they carry nothing.

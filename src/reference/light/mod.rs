@@ -2,6 +2,7 @@
 
 mod background;
 mod directional;
+pub(super) mod lamps;
 mod point;
 
 use crate::scene::{LightKind, Scene};

@@ -1,7 +1,7 @@
 //! A clear body: the laws of Snell and Fresnel.
 
-use super::Kind;
 use super::microfacet::{alpha, unblocked, viewer, visible_facet};
+use super::{Kind, Scatter};
 use crate::reference::shape::around;
 use crate::reference::surface::Surface;
 use crate::scene::Glass;
@@ -26,7 +26,7 @@ fn fresnel(cosine: f64, ratio: f64) -> (f64, Option<f64>) {
 }
 
 impl Kind for Glass {
-    fn sample(&self, at: &Surface, to_viewer: DVec3, xi: [f64; 3]) -> Option<(DVec3, DVec3)> {
+    fn sample(&self, at: &Surface, to_viewer: DVec3, xi: [f64; 3]) -> Option<Scatter> {
         let alpha = alpha(self.roughness);
         let viewer = viewer(at, to_viewer);
         let facet = alpha.map_or(DVec3::Y, |alpha| visible_facet(viewer, alpha, [xi[0], xi[1]]));
@@ -41,8 +41,12 @@ impl Kind for Glass {
             _ => 2.0 * viewer.dot(facet) * facet - viewer,
         };
         let direction = around(at.shading_normal, other);
-        let weight = alpha.map_or(1.0, |alpha| unblocked(viewer, other, alpha));
-        (side * other.y > 0.0 && side * direction.dot(at.normal) > 0.0)
-            .then_some((direction, DVec3::splat(weight)))
+        let weight = DVec3::splat(alpha.map_or(1.0, |alpha| unblocked(viewer, other, alpha)));
+        // Lamps are met by chance alone, so the density does not matter.
+        (side * other.y > 0.0 && side * direction.dot(at.normal) > 0.0).then_some(Scatter {
+            direction,
+            weight,
+            density: None,
+        })
     }
 }

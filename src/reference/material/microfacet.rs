@@ -5,6 +5,7 @@ use crate::reference::sampler::concentric_disk;
 use crate::reference::shape::local;
 use crate::reference::surface::Surface;
 use glam::DVec3;
+use std::f64::consts::PI;
 
 /// The slopes of the facets, or `None` for a smooth surface.
 pub(super) fn alpha(roughness: f32) -> Option<f64> {
@@ -30,13 +31,33 @@ pub(super) fn visible_facet(viewer: DVec3, alpha: f64, xi: [f64; 2]) -> DVec3 {
     DVec3::new(alpha * facet.x, facet.y.max(1e-6), alpha * facet.z).normalize()
 }
 
+/// The area of facets that others hide from this direction, relative to what can be seen: Smith's function.
+fn hidden(direction: DVec3, alpha: f64) -> f64 {
+    let tangent = (1.0 - direction.y * direction.y).max(0.0).sqrt() / direction.y;
+    ((1.0 + (alpha * tangent).powi(2)).sqrt() - 1.0) / 2.0
+}
+
+/// The part of the facets that neither direction is hidden from.
+pub(super) fn seen_of_both(viewer: DVec3, other: DVec3, alpha: f64) -> f64 {
+    1.0 / (1.0 + hidden(viewer, alpha) + hidden(other, alpha))
+}
+
 /// The part of a visible facet's light that no other facet blocks.
 pub(super) fn unblocked(viewer: DVec3, other: DVec3, alpha: f64) -> f64 {
-    // The mean slope of what hides: Smith's function.
-    let hidden = |direction: DVec3| {
-        let tangent = (1.0 - direction.y * direction.y).max(0.0).sqrt() / direction.y;
-        ((1.0 + (alpha * tangent).powi(2)).sqrt() - 1.0) / 2.0
-    };
-    let both = 1.0 / (1.0 + hidden(viewer) + hidden(other));
-    both * (1.0 + hidden(viewer))
+    seen_of_both(viewer, other, alpha) * (1.0 + hidden(viewer, alpha))
+}
+
+/// The density of facets with this normal, over the area of the surface: the distribution GGX, by the angle to the normal.
+pub(super) fn facet_density(facet: DVec3, alpha: f64) -> f64 {
+    let squared_tangent = (facet.x * facet.x + facet.z * facet.z) / (facet.y * facet.y);
+    let slope = alpha * (1.0 + squared_tangent / (alpha * alpha));
+    1.0 / (PI * facet.y.powi(4) * slope * slope)
+}
+
+/// The density of the mirrored directions at visible facets, per solid angle: a mirror doubles angles, which divides the
+/// density of the facets by 4 cos.
+pub(super) fn mirrored_density(viewer: DVec3, facet: DVec3, alpha: f64) -> f64 {
+    let cosine = viewer.dot(facet);
+    let visible = facet_density(facet, alpha) * cosine / ((1.0 + hidden(viewer, alpha)) * viewer.y);
+    visible / (4.0 * cosine)
 }

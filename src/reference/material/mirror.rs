@@ -1,7 +1,7 @@
 //! A mirror, which may also show highlights of the lights.
 
-use super::Kind;
 use super::phong::highlight;
+use super::{Kind, Scatter};
 use crate::reference::surface::Surface;
 use crate::scene::Mirror;
 use glam::{DVec3, Vec3};
@@ -23,7 +23,8 @@ impl Kind for Mirror {
         reflects.then(|| (direction(at, to_viewer), self.reflectance.as_dvec3()))
     }
 
-    fn sample(&self, at: &Surface, to_viewer: DVec3, _xi: [f64; 3]) -> Option<(DVec3, DVec3)> {
-        self.mirrored(at, to_viewer)
+    fn sample(&self, at: &Surface, to_viewer: DVec3, _xi: [f64; 3]) -> Option<Scatter> {
+        let (direction, weight) = self.mirrored(at, to_viewer)?;
+        Some(Scatter { direction, weight, density: None })
     }
 }

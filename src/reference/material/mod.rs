@@ -13,6 +13,15 @@ use super::surface::Surface;
 use crate::scene::Material;
 use glam::DVec3;
 
+/// A direction from which light comes.
+pub(super) struct Scatter {
+    pub(super) direction: DVec3,
+    /// The BRDF times the cosine, divided by the density.
+    pub(super) weight: DVec3,
+    /// Per solid angle. `None` if there is only one such direction.
+    pub(super) density: Option<f64>,
+}
+
 /// What a kind of material does with light. See `shaders/material/record.glsl`.
 pub(super) trait Kind {
     /// The radiance that the material emits.
@@ -35,9 +44,14 @@ pub(super) trait Kind {
         None
     }
 
-    /// A random direction from which light is scattered towards the viewer, and the weight of its radiance: the BRDF
-    /// times the cosine, divided by the probability density. For one direction out of three values in [0, 1).
-    fn sample(&self, _at: &Surface, _to_viewer: DVec3, _xi: [f64; 3]) -> Option<(DVec3, DVec3)> {
+    /// A random direction from which light is scattered towards the viewer, chosen by three values in [0, 1).
+    fn sample(&self, _at: &Surface, _to_viewer: DVec3, _xi: [f64; 3]) -> Option<Scatter> {
+        None
+    }
+
+    /// The BRDF times the cosine for light from another direction, and the density with which [`Kind::sample`] chooses
+    /// that direction, per solid angle. `None` if the material scatters into single directions.
+    fn scattered(&self, _at: &Surface, _to_light: DVec3, _to_viewer: DVec3) -> Option<(DVec3, f64)> {
         None
     }
 }

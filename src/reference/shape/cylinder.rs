@@ -1,8 +1,8 @@
 //! Solves |o + t d - c|^2 = r^2 for t, with the components of the vectors that are perpendicular to the axis.
 
-use super::{Crossing, Ray, tangent_coordinates};
+use super::{Crossing, Ray, around, tangent_coordinates};
 use crate::scene::Cylinder;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
 pub(super) fn crossing(cylinder: &Cylinder, ray: Ray, least: f64) -> Option<Crossing> {
@@ -26,4 +26,13 @@ pub(super) fn crossing(cylinder: &Cylinder, ray: Ray, least: f64) -> Option<Cros
     let turned = tangent_coordinates(axis, normal);
     let uv = DVec2::new(0.5 + turned.y.atan2(turned.x) / TAU, height(distance) / length);
     Some(Crossing::flat(distance, normal, uv))
+}
+
+/// The first value goes around the axis and the second along it. Each quarter of the first makes a quarter of the circle,
+/// which the device goes through backwards.
+pub(super) fn point(of: &Cylinder, [turn, height]: [f64; 2]) -> (DVec3, DVec3) {
+    let (quarter, within) = ((4.0 * turn).floor(), (4.0 * turn).fract());
+    let angle = TAU * (3.0 / 8.0 + 0.25 * (quarter - within));
+    let normal = around(of.axis(), DVec3::new(angle.cos(), 0.0, angle.sin()));
+    (of.start + height * (of.end - of.start) + f64::from(of.radius) * normal, normal)
 }

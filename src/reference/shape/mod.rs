@@ -64,3 +64,15 @@ pub fn crossing(shape: &Shape, ray: Ray, least: f64) -> Option<Crossing> {
         Shape::Plane(shape) => plane::crossing(shape, ray, least),
     }
 }
+
+/// A point of the surface, chosen evenly by two values in [0, 1), and the unit normal there. `None` for a shape without
+/// bounds.
+pub(super) fn point(shape: &Shape, xi: [f64; 2]) -> Option<(DVec3, DVec3)> {
+    match shape {
+        Shape::Sphere(shape) => Some(sphere::point(shape, xi)),
+        Shape::Box(shape) => Some(r#box::point(shape, xi)),
+        Shape::Triangle(shape) => Some(triangle::point(shape, xi)),
+        Shape::Cylinder(shape) => Some(cylinder::point(shape, xi)),
+        Shape::Plane(_) => None,
+    }
+}

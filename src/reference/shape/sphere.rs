@@ -1,8 +1,9 @@
 //! Solves |o + t d - c|^2 = r^2 for t.
 
 use super::{Crossing, Ray};
+use crate::reference::sampler::in_cone;
 use crate::scene::Sphere;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
 pub(super) fn crossing(sphere: &Sphere, ray: Ray, least: f64) -> Option<Crossing> {
@@ -19,4 +20,11 @@ pub(super) fn crossing(sphere: &Sphere, ray: Ray, least: f64) -> Option<Crossing
     // Longitude and latitude.
     let uv = DVec2::new(0.5 + normal.z.atan2(normal.x) / TAU, 0.5 + normal.y.clamp(-1.0, 1.0).asin() / PI);
     Some(Crossing::flat(distance, normal, uv))
+}
+
+/// In every direction from the centre alike. The device has z upwards here.
+pub(super) fn point(of: &Sphere, xi: [f64; 2]) -> (DVec3, DVec3) {
+    let DVec3 { x, y, z } = in_cone(xi, -1.0);
+    let normal = DVec3::new(x, z, y);
+    (of.center + f64::from(of.radius) * normal, normal)
 }

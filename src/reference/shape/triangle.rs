@@ -30,3 +30,11 @@ fn shading_normal(triangle: &Triangle, b1: f64, b2: f64, normal: DVec3) -> DVec3
     let mean = ((1.0 - b1 - b2) * n0 + b1 * n1 + b2 * n2).try_normalize().unwrap_or(normal);
     if mean.dot(normal) < 0.0 { -mean } else { mean }
 }
+
+/// The first value decides how far the point is from the first corner: the area of the smaller triangle grows with the
+/// square of that.
+pub(super) fn point(of: &Triangle, [from_corner, across]: [f64; 2]) -> (DVec3, DVec3) {
+    let [a, b, c] = of.from_widest_corner().vertices;
+    let opposite = b + across * (c - b);
+    (a + from_corner.sqrt() * (opposite - a), (b - a).cross(c - a).normalize())
+}

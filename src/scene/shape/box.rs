@@ -29,6 +29,11 @@ impl Kind for Box {
         self.lower.abs().max(self.upper.abs()).length()
     }
 
+    fn area(&self) -> Option<f64> {
+        let size = self.upper - self.lower;
+        Some(2.0 * (size.x * size.y + size.y * size.z + size.z * size.x))
+    }
+
     fn corners(&self, _axes: DMat3) -> Corners {
         let half = 0.5 * (self.upper - self.lower);
         Corners::of_box(self.lower + half, DMat3::from_diagonal(half))

@@ -5,6 +5,7 @@ use crate::scene::toml::error::ParseError;
 use crate::scene::toml::number::{Positive, Vector, zero};
 use glam::{DMat3, DVec3, Vec3};
 use serde::Deserialize;
+use std::f64::consts::TAU;
 use toml::Spanned;
 
 /// The side of a cylinder, open at both ends and visible from both sides: K. Suffern, chapter 19.
@@ -39,6 +40,10 @@ impl Kind for Cylinder {
 
     fn reach(&self) -> f64 {
         self.start.length().max(self.end.length()) + f64::from(self.radius)
+    }
+
+    fn area(&self) -> Option<f64> {
+        Some(TAU * f64::from(self.radius) * self.start.distance(self.end))
     }
 
     fn corners(&self, _axes: DMat3) -> Corners {

@@ -51,6 +51,9 @@ pub(super) trait Kind: Copy {
     /// The largest distance of a point of the shape from the origin.
     fn reach(&self) -> f64;
 
+    /// The area of the surface. `None` if it is infinite.
+    fn area(&self) -> Option<f64>;
+
     /// Points whose convex hull contains the shape. A shape that can choose uses the corners of a box along `axes`.
     fn corners(&self, axes: DMat3) -> Corners;
 
@@ -130,6 +133,11 @@ macro_rules! define_shape {
             /// The largest distance of a point of the shape from the origin.
             pub fn reach(&self) -> f64 {
                 match self { $(Self::$kind(shape) => shape.reach(),)+ }
+            }
+
+            /// The area of the surface. `None` if it is infinite.
+            pub fn area(&self) -> Option<f64> {
+                match self { $(Self::$kind(shape) => shape.area(),)+ }
             }
 
             /// Points whose convex hull contains the shape. A shape that can choose uses the corners of a box along

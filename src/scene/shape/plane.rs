@@ -29,6 +29,10 @@ impl Kind for Plane {
         f64::INFINITY
     }
 
+    fn area(&self) -> Option<f64> {
+        None
+    }
+
     fn corners(&self, _axes: DMat3) -> Corners {
         Corners::new([])
     }

@@ -5,6 +5,7 @@ use crate::scene::toml::error::ParseError;
 use crate::scene::toml::number::{Positive, Vector, zero};
 use glam::{DMat3, DVec3, Vec3};
 use serde::Deserialize;
+use std::f64::consts::TAU;
 use toml::Spanned;
 
 /// A sphere.
@@ -27,6 +28,10 @@ impl Kind for Sphere {
 
     fn reach(&self) -> f64 {
         self.center.length() + f64::from(self.radius)
+    }
+
+    fn area(&self) -> Option<f64> {
+        Some(2.0 * TAU * f64::from(self.radius).powi(2))
     }
 
     fn corners(&self, axes: DMat3) -> Corners {

@@ -54,6 +54,11 @@ impl Kind for Triangle {
         self.vertices.iter().map(|vertex| vertex.length()).fold(0.0, f64::max)
     }
 
+    fn area(&self) -> Option<f64> {
+        let [a, b, c] = self.vertices;
+        Some(0.5 * (b - a).cross(c - a).length())
+    }
+
     fn corners(&self, _axes: DMat3) -> Corners {
         Corners::new(self.vertices)
     }
