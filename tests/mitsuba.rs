@@ -1,5 +1,5 @@
-//! Against a renderer of other authors: Mitsuba 3 with the same lens, matte spheres, checkered plane
-//! and directional light. `tests/mitsuba` has the scenes, Mitsuba's pictures of them, and the script
+//! Against a renderer of other authors: Mitsuba 3 with the same lens, spheres of matte, glass and mirror,
+//! checkered plane, directional light, lamp and sky. `tests/mitsuba` has the scenes, Mitsuba's pictures of them, and the script
 //! that makes these; the test needs no Mitsuba.
 
 mod common;
@@ -50,14 +50,14 @@ fn reference(name: &str, size: [u32; 2]) -> Result<Spread> {
 }
 
 /// Catches a mistake that the shaders and the oracle share, of the lens, the field of view, the
-/// film's orientation, diffuse reflection, shadows or checkers: in every channel of every pixel the
+/// film's orientation, diffuse reflection, shadows, checkers, glass or lamps: in every channel of every pixel the
 /// two renderers' means agree within their noise, without any exception, and so do the means over
 /// the picture.
 #[test]
 fn mitsuba_renders_the_same_pictures() {
     let check = |gpu: &Gpu| -> Result<String> {
         let mut figures = Vec::new();
-        for name in ["near", "tilted"] {
+        for name in ["near", "tilted", "glass"] {
             let path = file(name).with_extension("toml");
             let scene = scene::load(path.to_str().context("a plain path")?)?;
             let mut settings = Settings::of_scene(SceneRef::new(scene));
@@ -79,6 +79,8 @@ fn mitsuba_renders_the_same_pictures() {
             "cosine_forgotten",
             "shadows_forgotten",
             "checker_in_two_dimensions",
+            "glass_of_one_polarization",
+            "shadows_of_lamps_forgotten",
         ],
     );
 }

@@ -18,7 +18,7 @@ fn paths_follow_the_oracle() {
     let check = |gpu: &Gpu| -> Result<String> {
         let mut figures = Vec::new();
         for (_, sampler) in Sampler::NAMES {
-            let mut settings = settings_of(PATHS, [64, 48], 8);
+            let mut settings = settings_of(PATHS, [48, 36], 6);
             settings.estimator.sampler = sampler;
             let agreement = verify(&mut gpu.renderer(&settings), &settings)?;
             let differ = 100.0 * agreement.mismatch_share();

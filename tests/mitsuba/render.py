@@ -8,7 +8,7 @@ Needs Python 3.11 for its TOML parser, and takes about a minute on two cores.
 
 The mapping. Mitsuba's sensor `thinlens` has a focal plane, not a sphere, and takes the radius. A matte surface of
 kd = 1 and ka = 0 is `diffuse`; a directional light of some radiance is `directional` of that
-irradiance. The plane is a rectangle that reaches beyond the picture. Its checker is shifted by
+irradiance; a clear body of smooth glass is `dielectric`, and a lamp has an `area` emitter. The plane is a rectangle that reaches beyond the picture. Its checker is shifted by
 1.87e-4 as this program shifts it, and that shift puts the plane itself into the odd layer of cells.
 """
 
@@ -25,12 +25,19 @@ HALF_EDGE = 48.0
 SHIFT = 1.87e-4
 
 
+def integrator(scene):
+    """`whitted` without mirrors is direct light. A path of n bounces has n + 1 edges."""
+    if scene.get("integrator") == "path":
+        return {"type": "path", "max_depth": scene["max_bounces"] + 1}
+    return {"type": "direct"}
+
+
 def rgb(value):
     return {"type": "rgb", "value": value}
 
 
 def diffuse(material):
-    assert material["ka"] == 0 and material["kd"] == 1, "Mitsuba has no ambient light"
+    assert material.get("kd", 1) == 1, "Mitsuba has no such coefficient"
     color = material["color"]
     if not isinstance(color, dict):
         return {"type": "diffuse", "reflectance": rgb(color)}
@@ -49,12 +56,33 @@ def diffuse(material):
     return {"type": "diffuse", "reflectance": board}
 
 
+def material_of(scene, name):
+    """The BSDF of a material, and its emitter if it is a lamp."""
+    for kind in ["matte", "mirror", "glass", "emissive"]:
+        material = scene.get(kind, {}).get(name)
+        if material is not None:
+            break
+    if kind == "matte":
+        return {"bsdf": diffuse(material)}
+    if kind == "mirror":
+        color = [material["kr"] * x for x in material["color"]]
+        bsdf = {"type": "conductor", "material": "none", "specular_reflectance": rgb(color)}
+        return {"bsdf": {"type": "twosided", "nested": bsdf}}
+    if kind == "glass":
+        return {"bsdf": {"type": "dielectric", "int_ior": material["index"], "ext_ior": 1.0}}
+    radiance = [material["radiance"] * x for x in material.get("color", [1, 1, 1])]
+    return {
+        "bsdf": {"type": "diffuse", "reflectance": rgb([0, 0, 0])},
+        "emitter": {"type": "area", "radiance": rgb(radiance)},
+    }
+
+
 def translate(scene):
     transform = mitsuba.ScalarTransform4f()
     camera, (width, height) = scene["camera"], scene["size"]
     result = {
         "type": "scene",
-        "integrator": {"type": "direct"},
+        "integrator": integrator(scene),
         "sensor": {
             "type": "thinlens",
             "fov": camera["vfov_degrees"],
@@ -74,25 +102,27 @@ def translate(scene):
             "sampler": {"type": "independent", "sample_count": SAMPLES},
         },
     }
-    (light,) = scene["directional"]
-    result["light"] = {
-        "type": "directional",
-        "direction": [-x for x in light["direction"]],
-        "irradiance": rgb([light["radiance"] * x for x in light.get("color", [1, 1, 1])]),
-    }
-    (plane,) = scene["plane"]
-    assert plane["point"] == [0, 0, 0] and plane["normal"] == [0, 1, 0]
-    result["plane"] = {
-        "type": "rectangle",
-        "to_world": transform.rotate([1, 0, 0], -90).scale(HALF_EDGE),
-        "bsdf": diffuse(scene["matte"][plane["material"]]),
-    }
+    for light in scene.get("directional", []):
+        result["light"] = {
+            "type": "directional",
+            "direction": [-x for x in light["direction"]],
+            "irradiance": rgb([light["radiance"] * x for x in light.get("color", [1, 1, 1])]),
+        }
+    if "background" in scene:
+        result["sky"] = {"type": "constant", "radiance": rgb(scene["background"]["color"])}
+    for plane in scene.get("plane", []):
+        assert plane["point"] == [0, 0, 0] and plane["normal"] == [0, 1, 0]
+        result["plane"] = {
+            "type": "rectangle",
+            "to_world": transform.rotate([1, 0, 0], -90).scale(HALF_EDGE),
+            "bsdf": diffuse(scene["matte"][plane["material"]]),
+        }
     for number, sphere in enumerate(scene["sphere"]):
         result[f"sphere{number}"] = {
             "type": "sphere",
             "center": sphere["center"],
             "radius": sphere["radius"],
-            "bsdf": diffuse(scene["matte"][sphere["material"]]),
+            **material_of(scene, sphere["material"]),
         }
     return mitsuba.load_dict(result)
 
