@@ -75,7 +75,12 @@ pub(super) static SAMPLING: &[Setting] = &[
         access: Access::Choice(by_name!(Integrator::NAMES, estimator.integrator), || {
             Integrator::NAMES.map(|(name, _)| Choice { name, label: name, help: "" }).to_vec()
         }),
-        row: None,
+        row: row(
+            Part::Sampling,
+            "Light",
+            "What finds the light along a ray: whitted as in Suffern's book, with hard shadows and mirrors; path with any number of reflections. Most scenes are made for one of them.",
+            Widget::List,
+        ),
     },
     Setting {
         flag: "max-bounces",
@@ -86,7 +91,12 @@ pub(super) static SAMPLING: &[Setting] = &[
         role: Role::Estimator,
         key: top("max_bounces"),
         access: Access::Whole(field!(estimator.max_bounces), [0, MAX_BOUNCES]),
-        row: None,
+        row: row(
+            Part::Sampling,
+            "Bounces",
+            "How often light is scattered on its way to the lens: more bounces brighten corners, glass and mirrors in mirrors, and take longer. With whitted, only mirrors count.",
+            Widget::Slider(Slider { range: |_| [0.0, MAX_BOUNCES as f32], ..EVEN }),
+        ),
     },
     Setting {
         flag: "sampler",
