@@ -2,6 +2,7 @@
 
 mod common;
 
+use common::mesh::sphere;
 use common::viewer::Viewer;
 use common::{decode_png, render_png};
 use std::time::{Duration, Instant};
@@ -104,5 +105,65 @@ fn a_scene_is_chosen_by_its_picture() {
     viewer.click("suffern-mirror", |viewer| viewer.opened.borrow().ends_with("suffern-mirror"));
     viewer.wait_until_done();
     viewer.expect_picture("the mirror", 0, &["suffern-mirror", "-n", "2"]);
+    viewer.close();
+}
+
+/// Where bright pixels are in a rectangle of the screen, counted from the leftmost and the uppermost of them.
+fn text_in(viewer: &Viewer, [x, y, width, height]: [i32; 4]) -> Vec<[i32; 2]> {
+    let corner = [x, y].map(|at| i16::try_from(at).expect("on the screen"));
+    let pixels = viewer.screen(corner, [width, height].map(|extent| u16::try_from(extent).expect("a size")));
+    let places = (0..height).flat_map(|y| (0..width).map(move |x| [x, y])).zip(pixels);
+    let bright: Vec<_> = places.filter(|(_, [red, ..])| *red > 200).map(|(place, _)| place).collect();
+    let first = [0, 1].map(|axis| bright.iter().map(|place| place[axis]).min().unwrap_or(0));
+    bright.into_iter().map(|place| [0, 1].map(|axis| place[axis] - first[axis])).collect()
+}
+
+/// Catches an opened file that has no row or two, a row with another name, a mark at another row than that of the shown
+/// scene, and a row that opens something else.
+#[test]
+fn an_opened_file_is_in_the_list() {
+    let viewer = Viewer::start([800, 640], &["-n", "2"]);
+    viewer.wait_until_done();
+    let file = viewer.folder.join("one-ball-alone.obj");
+    std::fs::write(&file, sphere(6, false, false)).expect("a mesh");
+    let open_list = || {
+        viewer.controls.borrow_mut().remove("version-4");
+        viewer.click("Scene", |viewer| viewer.controls.borrow().contains_key("version-4"));
+        viewer.rest();
+    };
+    // The rows are as wide as that of the file, which is the last one.
+    let ground = |name: &str| {
+        let controls = viewer.controls.borrow();
+        let ([x, _, width, _], [_, y, _, height]) = (controls["Opened file"], controls[name]);
+        viewer.screen([(x + width - 6) as i16, (y + height / 2) as i16], [1, 1])[0]
+    };
+    open_list();
+    assert!(!viewer.controls.borrow().contains_key("Opened file"), "no file was opened yet");
+    viewer.press("Escape");
+    viewer.drop_file(&file);
+    viewer.wait_for("the mesh", |viewer| viewer.opened.borrow().ends_with("one-ball-alone.obj"));
+    viewer.wait_until_done();
+    let [x, y, width, height] = viewer.controls.borrow()["Scene"];
+    // The arrow at its right is as wide as it is high.
+    let shown_name = text_in(&viewer, [x, y, width - height, height]);
+    for round in 0..2 {
+        open_list();
+        let row = viewer.controls.borrow()["Opened file"];
+        let name = text_in(&viewer, row);
+        let differ = name.iter().filter(|at| !shown_name.contains(at)).count()
+            + shown_name.iter().filter(|at| !name.contains(at)).count();
+        // Letters on another ground have other edges.
+        assert!(5 * differ < shown_name.len() && !name.is_empty(), "{differ} pixels of the name differ");
+        assert!(ground("Opened file")[0] > ground("version-4")[0] + 30, "the mesh is not marked");
+        viewer.click("version-4", |viewer| viewer.opened.borrow().ends_with("version-4"));
+        viewer.wait_until_done();
+        viewer.expect_picture("the built-in scene", 0, &["version-4", "-n", "2"]);
+        open_list();
+        assert!(ground("version-4")[0] > ground("Opened file")[0] + 30, "the built-in scene is not marked");
+        viewer.click("Opened file", |viewer| viewer.opened.borrow().ends_with("one-ball-alone.obj"));
+        viewer.wait_until_done();
+        viewer.expect_picture("the mesh", 0, &[&file.display().to_string(), "-n", "2"]);
+        assert!(round == 0 || viewer.controls.borrow()["Opened file"] == row, "there is another row");
+    }
     viewer.close();
 }

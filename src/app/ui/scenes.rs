@@ -27,7 +27,7 @@ impl Panel {
                 let is_shown = *scene == shown;
                 let pressed = match builtin(scene) {
                     Some(builtin) => row(ui, builtin, is_shown, thumbnails, layout),
-                    None => file_row(ui, scene, is_shown),
+                    None => file_row(ui, scene, is_shown, layout),
                 };
                 if pressed {
                     chosen = Some(scene.clone());
@@ -85,8 +85,9 @@ fn row(
 }
 
 /// Draws the row of a file, with its folder if that is known. Returns whether it is pressed.
-fn file_row(ui: &Ui, file: &Path, is_shown: bool) -> bool {
+fn file_row(ui: &Ui, file: &Path, is_shown: bool, layout: &mut Layout) -> bool {
     let pressed = ui.selectable_config(file_name(file)).selected(is_shown).build();
+    note_item(ui, "Opened file", layout);
     tooltip(ui, &from_end(ui, &file.to_string_lossy(), PATH_WIDTH));
     pressed
 }
