@@ -91,3 +91,50 @@ fn the_panel_is_neutral() {
     assert!(panel.iter().any(|[red, _, blue]| red > blue), "the marks of the focal plane are there");
     viewer.close();
 }
+
+/// The places of bright pixels in a rectangle of the screen, counted from its corner.
+fn text_in(viewer: &Viewer, [x, y, width, height]: [i32; 4], level: u8) -> Vec<[i32; 2]> {
+    let size = [width, height].map(|extent| u16::try_from(extent).expect("a size"));
+    let pixels = viewer.screen([x, y].map(|at| i16::try_from(at).expect("on the screen")), size);
+    let places = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
+    places.zip(pixels).filter(|(_, [red, ..])| *red > level).map(|(place, _)| place).collect()
+}
+
+/// Catches a drop-down list without a name, with the name of another one, and a name that the list covers.
+#[test]
+fn every_list_has_its_name() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    std::fs::write(folder.path().join("some.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("a mesh");
+    let folds = "{\"What is sharp\": false, \"Model\": false}";
+    Viewer::remember(folder.path(), &format!("{{\"greeted\": true, \"folds\": {folds}}}"));
+    let arguments = ["--validation", "--size", "400x900", "-n", "2", "some.obj"];
+    let viewer = Viewer::start_in(folder.path(), [400, 900], &arguments);
+    viewer.wait_until_done();
+    let mut names = Vec::new();
+    for (section, lists) in [
+        ("Lens", ["Camera", "Sensor", "Known lenses"].as_slice()),
+        ("Aperture shape", &["Aperture"]),
+        ("Model", &["Axis that points up", "Material"]),
+        ("View", &["Show"]),
+        ("Output", &["Size of the picture"]),
+        ("Files", &["Recent files"]),
+    ] {
+        viewer.click(section, |viewer| lists.iter().all(|list| viewer.controls.borrow().contains_key(*list)));
+        viewer.rest();
+        for list in lists {
+            let [x, y, width, height] = viewer.controls.borrow()[*list];
+            assert!(width >= 120, "there is no room for what is chosen in {list}");
+            let name = text_in(&viewer, [0, y, x, height], 150);
+            let end = name.iter().map(|[x, _]| *x).max();
+            assert!(
+                end.is_some_and(|end| end + 3 < x),
+                "the name of {list} ends at {end:?}, the list begins at {x}"
+            );
+            assert!(!names.contains(&name), "{list} has the name of another list");
+            names.push(name);
+        }
+        viewer.click_once(section);
+        viewer.rest();
+    }
+    viewer.close();
+}

@@ -3,7 +3,7 @@
 mod common;
 
 use common::mesh::sphere;
-use common::viewer::Viewer;
+use common::viewer::{PANEL, Viewer};
 use common::{decode_png, render_png};
 use std::path::Path;
 
@@ -24,11 +24,16 @@ fn told(viewer: &Viewer) -> String {
     line.split(' ').filter(of_model).collect::<Vec<_>>().join(" ")
 }
 
-/// Chooses a colour whose place is this share of the picker, and closes the picker.
-fn pick_color(viewer: &Viewer, row: &str, share: [f64; 2]) {
+/// Opens the picker of a row.
+fn open_picker(viewer: &Viewer, row: &str) {
     viewer.controls.borrow_mut().remove("Picker");
     viewer.click_once(row);
     viewer.wait_for("the picker", |viewer| viewer.controls.borrow().contains_key("Picker"));
+}
+
+/// Chooses a colour whose place is this share of the picker, and closes the picker.
+fn pick_color(viewer: &Viewer, row: &str, share: [f64; 2]) {
+    open_picker(viewer, row);
     let [x, y, width, height] = viewer.controls.borrow()["Picker"];
     let at = [(x, width), (y, height)];
     let at = [0, 1].map(|axis| at[axis].0 + (f64::from(at[axis].1) * share[axis]) as i32);
@@ -108,4 +113,61 @@ fn a_model_is_turned_coloured_and_lit_by_the_panel() {
     );
     assert!(last == rendered(folder.path(), &["scene.toml"]), "the saved scene is another picture");
     viewer.close();
+}
+
+/// Catches a picker that covers the panel or leaves the window, on the displays of one and of two pixels per point, and one
+/// that cannot be closed.
+#[test]
+fn a_colour_is_chosen_beside_the_panel() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    std::fs::write(folder.path().join("some.obj"), sphere(2, false, false)).expect("a mesh");
+    // Only the section of the model is open, and its last rows stand low in the window.
+    Viewer::remember(folder.path(), "{\"greeted\": true, \"folds\": {\"What is sharp\": false}}");
+    let rows = ["Colour", "Sky", "Horizon"];
+    for (scale, size, rows) in [(1, [400, 640], &rows[..]), (2, [640, 1024], &rows[..1])] {
+        let (factor, size_argument) = (scale.to_string(), format!("{}x{}", size[0], size[1]));
+        let viewer = Viewer::start_with(
+            folder.path(),
+            size,
+            &["--validation", "--size", &size_argument, "-n", "2", "some.obj"],
+            &[("WINIT_X11_SCALE_FACTOR", &factor)],
+        );
+        viewer.wait_until_done();
+        let window = [PANEL * scale + viewer.picture_size()[0], viewer.picture_size()[1]];
+        let screen = || {
+            viewer.rest();
+            viewer.screen([0, 0], window)
+        };
+        for row in rows {
+            let place = viewer.controls.borrow()[*row];
+            assert!(place[1] + place[3] <= i32::from(window[1]), "{row} is out of view");
+            let before = screen();
+            let close_by: [&dyn Fn(); 3] =
+                [&|| viewer.click_once(row), &|| viewer.press("Escape"), &|| viewer.point([4, 4])];
+            for (number, close) in close_by.into_iter().enumerate() {
+                open_picker(&viewer, row);
+                viewer.rest();
+                let [x, y, width, height] = viewer.controls.borrow()["Window of the picker"];
+                assert!(
+                    x >= i32::from(PANEL * scale),
+                    "the picker of {row} covers the panel at {x}, scale {scale}"
+                );
+                let ends = [x + width, y + height];
+                let is_within =
+                    y >= 0 && [0, 1].into_iter().all(|axis| ends[axis] <= i32::from(window[axis]));
+                assert!(is_within, "the picker of {row} ends at {ends:?} in {window:?}, scale {scale}");
+                close();
+                if number == 2 {
+                    viewer.hands("mousedown 1", 1);
+                    viewer.hands("mouseup 1", 0);
+                }
+                viewer.point_away();
+                assert!(
+                    screen() == before,
+                    "the picker of {row} is not closed in way {number}, scale {scale}"
+                );
+            }
+        }
+        viewer.close();
+    }
 }

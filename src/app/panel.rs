@@ -55,6 +55,8 @@ pub(super) struct Panel {
     pub(super) messages: Messages,
     /// The value that is being typed, if there is one.
     pub(super) typing: Option<Typing>,
+    /// The name of the row whose colour is being chosen, if there is one.
+    pub(super) picks: Option<&'static str>,
     pub(super) optics: Optics,
     pub(super) zoom_lock: ZoomLock,
     /// The picture that is held for comparison, if there is one.
@@ -137,6 +139,7 @@ impl Panel {
             to_open: None,
             messages: Messages::default(),
             typing: None,
+            picks: None,
             optics: Optics {
                 open: options.memory.optics,
                 height: options.memory.optics_height.unwrap_or(STRIP),

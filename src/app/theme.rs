@@ -112,6 +112,10 @@ pub(super) const UNIT_WIDTH: f32 = 64.0;
 /// The width of the controls above the drawing of the optics.
 pub(super) const RAYS_WIDTH: f32 = 80.0;
 pub(super) const VIEWS_WIDTH: f32 = 150.0;
+/// The width of the window in which a colour is chosen, without its edges.
+pub(super) const PICKER_WIDTH: f32 = 256.0;
+/// The width of the name of a drop-down list, unless it is longer.
+pub(super) const LIST_NAME: f32 = 88.0;
 /// The width of the slider of a blur that is asked for.
 pub(super) const BLUR_WIDTH: f32 = 200.0;
 /// The largest width of a path in a list.

@@ -16,7 +16,11 @@ impl Panel {
         let mut action = None;
         let mut wanted: Option<PathBuf> = None;
         let mut typed = None;
-        combo(ui, "Recent files", "Recent files", "Files that were opened before.", layout, |layout| {
+        let count = match self.recent.len() {
+            1 => "1 file".into(),
+            number => format!("{number} files"),
+        };
+        combo(ui, "Recent files", &count, "Files that were opened before.", layout, |layout| {
             if self.recent.is_empty() {
                 ui.text_disabled("none yet");
             }

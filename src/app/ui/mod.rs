@@ -1,6 +1,7 @@
 //! Draws the panel.
 
 mod aperture;
+mod color;
 mod compare;
 mod drawing;
 mod files;

@@ -17,7 +17,7 @@ const SIZES: [(&str, [u32; 2]); 7] = [
     ("1080 x 1080, square", [1080, 1080]),
     ("1080 x 1920, upright", [1080, 1920]),
 ];
-const AS_SHOWN: &str = "As large as it is shown";
+const AS_SHOWN: &str = "As it is shown";
 
 impl Panel {
     pub(super) fn output(&mut self, ui: &Ui, layout: &mut Layout) -> Option<Action> {

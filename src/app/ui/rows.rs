@@ -1,5 +1,6 @@
 //! The rows of the panel, made from the list of settings.
 
+use super::color::pick_color;
 use super::sensor::sensor;
 use super::tolerance::tolerance;
 use super::widgets::{Layout, beside, combo, heading, note_item, points_at_item, share, tick, tooltip};
@@ -7,9 +8,7 @@ use crate::app::panel::Panel;
 use crate::app::theme::{self, SLIDER_MARK};
 use crate::app::typing::Typing;
 use crate::scene::{Depths, PLACES};
-use crate::settings::{
-    Access, Choice, Field, Part, Row, Setting, Settings, Slider, Widget, list, to_linear, to_srgb,
-};
+use crate::settings::{Access, Choice, Field, Part, Row, Setting, Settings, Slider, Widget, list};
 use glam::DVec3;
 use imgui::{Drag, Key, MouseButton, SliderFlags, Ui};
 
@@ -94,7 +93,8 @@ impl Panel {
             (_, Access::Vector(field, _)) => drag(ui, &id, field, &mut self.settings),
             (_, Access::Color(field, _)) => {
                 noted = true;
-                pick_color(ui, &id, row, field, &mut self.settings, layout);
+                let right = self.column(ui.io().display_size[0]);
+                pick_color(ui, row, field, &mut self.settings, &mut self.picks, right, layout);
             }
             _ => {}
         }
@@ -233,7 +233,7 @@ fn choose(
     layout: &mut Layout,
 ) {
     let now = (field.get)(settings);
-    let shown = choices.iter().find(|choice| choice.name == now).map_or(row.label, |choice| choice.label);
+    let shown = choices.iter().find(|choice| choice.name == now).map_or("another", |choice| choice.label);
     combo(ui, row.label, shown, row.help, layout, |layout| {
         for choice in choices {
             if ui.selectable_config(choice.label).selected(choice.name == now).build() {
@@ -241,37 +241,6 @@ fn choose(
             }
             note_item(ui, choice.label, layout);
             tooltip(ui, choice.help);
-        }
-    });
-}
-
-/// Draws a patch of the colour. A click opens a window in which another one is chosen.
-fn pick_color(
-    ui: &Ui,
-    id: &str,
-    row: &Row,
-    field: &Field<DVec3>,
-    settings: &mut Settings,
-    layout: &mut Layout,
-) {
-    let mut shown = (field.get)(settings).to_array().map(|channel| to_srgb(channel) as f32);
-    let [width, height] = [ui.calc_item_width(), ui.frame_height()];
-    let [red, green, blue] = shown;
-    let popup = format!("{id} of");
-    let patch = ui.color_button_config(id, [red, green, blue, 1.0]).size([width, height]);
-    if patch.tooltip(false).drag_drop(false).build() {
-        ui.open_popup(&popup);
-    }
-    note_item(ui, row.label, layout);
-    tooltip(ui, row.help);
-    ui.popup(&popup, || {
-        let picker = ui.color_picker3_config("##picker", &mut shown);
-        let picker = picker.side_preview(false).small_preview(false).options(false).display_rgb(false);
-        let changed = picker.display_hex(false).inputs(false).build();
-        note_item(ui, "Picker", layout);
-        if changed {
-            let linear = shown.map(|level| to_linear(level.into()));
-            (field.set)(settings, DVec3::from_array(linear));
         }
     });
 }

@@ -15,7 +15,7 @@ pub(super) fn sensor(
 ) {
     let now = (field.get)(settings);
     let size = format!("{} x {} mm", now.width_mm, now.height_mm);
-    let shown = now.format().map_or_else(|| format!("Sensor {size}"), |of| format!("{}, {size}", of.label));
+    let shown = now.format().map_or_else(|| size.clone(), |of| format!("{}, {size}", of.label));
     combo(ui, row.label, &shown, row.help, layout, |layout| {
         for format in &FORMATS {
             if ui.selectable_config(format.label).selected(format.sensor == now).build() {

@@ -2,7 +2,7 @@
 
 pub(super) use crate::app::panel::Layout;
 
-use crate::app::theme::{self, Color, GRIP, SPACING, TOOLTIP_PADDING, TOOLTIP_WIDTH};
+use crate::app::theme::{self, Color, GRIP, LIST_NAME, SPACING, TOOLTIP_PADDING, TOOLTIP_WIDTH};
 use imgui::{Condition, ItemHoveredFlags, MouseButton, MouseCursor, TreeNodeFlags, Ui, WindowFlags};
 use std::collections::BTreeMap;
 
@@ -226,7 +226,8 @@ pub(super) fn from_end(ui: &Ui, path: &str, width: f32) -> String {
     texts.find(fits).unwrap_or_default()
 }
 
-/// Draws a drop-down list as wide as the panel.
+/// Draws the name of a drop-down list, and at its right the list with what is chosen. Where that has no room, only the
+/// part before its comma is shown.
 pub(super) fn combo(
     ui: &Ui,
     name: &'static str,
@@ -235,7 +236,16 @@ pub(super) fn combo(
     layout: &mut Layout,
     choices: impl FnOnce(&mut Layout),
 ) {
+    let left = ui.cursor_pos()[0];
+    ui.align_text_to_frame_padding();
+    ui.text(name);
+    tooltip(ui, help);
+    ui.same_line_with_pos(left + ui.calc_text_size(name)[0].max(LIST_NAME) + SPACING[0]);
     ui.set_next_item_width(-1.0);
+    // The arrow is as wide as it is high.
+    let room = ui.calc_item_width() - ui.frame_height() - 2.0 * ui.clone_style().frame_padding[0];
+    let short = shown.split(", ").next().unwrap_or(shown);
+    let shown = if ui.calc_text_size(shown)[0] <= room { shown } else { short };
     match ui.begin_combo(format!("##{name}"), shown) {
         Some(_open) => choices(layout),
         // While the list is open, the last item is an entry of it and not the list.
