@@ -7,6 +7,9 @@ use ash::vk;
 use std::ffi::CString;
 use std::sync::Arc;
 
+/// The commands that a barrier ties together: their stages, and how they use the memory.
+pub(super) type Scope = (vk::PipelineStageFlags2, vk::AccessFlags2);
+
 /// A command buffer that is recorded, submitted, waited for, and recorded again.
 pub struct Commands {
     pool: vk::CommandPool,
@@ -162,20 +165,35 @@ impl Recording<'_> {
         self.depend(&vk::DependencyInfo::default().memory_barriers(&barrier));
     }
 
+    /// Gives an image another layout. The commands `after` it see what those `before` it wrote to the image.
+    pub(super) fn transition(
+        &mut self,
+        image: vk::Image,
+        old: vk::ImageLayout,
+        before: Scope,
+        new: vk::ImageLayout,
+        after: Scope,
+    ) {
+        let barrier = [vk::ImageMemoryBarrier2::default()
+            .image(image)
+            .subresource_range(WHOLE)
+            .old_layout(old)
+            .src_stage_mask(before.0)
+            .src_access_mask(before.1)
+            .new_layout(new)
+            .dst_stage_mask(after.0)
+            .dst_access_mask(after.1)];
+        self.depend(&vk::DependencyInfo::default().image_memory_barriers(&barrier));
+    }
+
     /// Sets every value of an image to zero, whatever its layout was, and leaves it in GENERAL.
     pub fn clear(&mut self, image: &Image) {
         let stages = vk::PipelineStageFlags2::COMPUTE_SHADER | vk::PipelineStageFlags2::ALL_TRANSFER;
-        let barrier = [vk::ImageMemoryBarrier2::default()
-            .image(image.raw)
-            .subresource_range(WHOLE)
-            .old_layout(vk::ImageLayout::UNDEFINED)
-            .new_layout(vk::ImageLayout::GENERAL)
-            .src_stage_mask(stages)
-            .src_access_mask(vk::AccessFlags2::SHADER_STORAGE_WRITE | vk::AccessFlags2::TRANSFER_WRITE)
-            .dst_stage_mask(vk::PipelineStageFlags2::ALL_TRANSFER)
-            .dst_access_mask(vk::AccessFlags2::TRANSFER_WRITE)];
-        self.depend(&vk::DependencyInfo::default().image_memory_barriers(&barrier));
-        // SAFETY: recording is under way, and the barrier above gave the image this layout.
+        let writes = vk::AccessFlags2::SHADER_STORAGE_WRITE | vk::AccessFlags2::TRANSFER_WRITE;
+        let transfer = (vk::PipelineStageFlags2::ALL_TRANSFER, vk::AccessFlags2::TRANSFER_WRITE);
+        let (undefined, general) = (vk::ImageLayout::UNDEFINED, vk::ImageLayout::GENERAL);
+        self.transition(image.raw, undefined, (stages, writes), general, transfer);
+        // SAFETY: recording is under way, and the transition above gave the image this layout.
         unsafe {
             self.device().raw.cmd_clear_color_image(
                 self.raw(),

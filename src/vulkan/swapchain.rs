@@ -177,7 +177,7 @@ impl Swapchain {
         // `present` waits for the acquired image at this stage, so that tracing need not.
         let undefined = (vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT, vk::AccessFlags2::NONE);
         let (dst, color) = (vk::ImageLayout::TRANSFER_DST_OPTIMAL, vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL);
-        transition(recording, raw, vk::ImageLayout::UNDEFINED, undefined, dst, transfer);
+        recording.transition(raw, vk::ImageLayout::UNDEFINED, undefined, dst, transfer);
         let copy = |picture: &Image, from: u32, to: u32| {
             let [width, height] =
                 [0, 1].map(|axis| self.extent[axis].saturating_sub(corner[axis]).min(picture.extent()[axis]));
@@ -205,7 +205,7 @@ impl Swapchain {
         if let Some(picture) = picture {
             copy(picture, split, self.extent[0]);
         }
-        transition(recording, raw, dst, transfer, color, attachment);
+        recording.transition(raw, dst, transfer, color, attachment);
         let load_op =
             if picture.is_some() { vk::AttachmentLoadOp::LOAD } else { vk::AttachmentLoadOp::CLEAR };
         let target = [vk::RenderingAttachmentInfo::default()
@@ -231,7 +231,7 @@ impl Swapchain {
             (vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT, vk::AccessFlags2::COLOR_ATTACHMENT_WRITE);
         let nothing = (vk::PipelineStageFlags2::ALL_COMMANDS, vk::AccessFlags2::NONE);
         let color = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
-        transition(&mut recording, raw, color, attachment, vk::ImageLayout::PRESENT_SRC_KHR, nothing);
+        recording.transition(raw, color, attachment, vk::ImageLayout::PRESENT_SRC_KHR, nothing);
 
         let rendered = self.rendered[image.index as usize];
         let wait = [vk::SemaphoreSubmitInfo::default()
@@ -271,28 +271,6 @@ impl Drop for Swapchain {
             self.loader.destroy_swapchain(self.raw, None);
         }
     }
-}
-
-type Scope = (vk::PipelineStageFlags2, vk::AccessFlags2);
-
-fn transition(
-    recording: &mut Recording<'_>,
-    image: vk::Image,
-    old: vk::ImageLayout,
-    before: Scope,
-    new: vk::ImageLayout,
-    after: Scope,
-) {
-    let barrier = [vk::ImageMemoryBarrier2::default()
-        .image(image)
-        .subresource_range(WHOLE)
-        .old_layout(old)
-        .src_stage_mask(before.0)
-        .src_access_mask(before.1)
-        .new_layout(new)
-        .dst_stage_mask(after.0)
-        .dst_access_mask(after.1)];
-    recording.depend(&vk::DependencyInfo::default().image_memory_barriers(&barrier));
 }
 
 fn extent(capabilities: &vk::SurfaceCapabilitiesKHR, size: [u32; 2]) -> [u32; 2] {

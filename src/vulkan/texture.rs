@@ -1,7 +1,6 @@
 //! Pictures that imgui's renderer draws.
 
 use super::command::LAYER;
-use super::image::WHOLE;
 use super::{Buffer, Commands, Device, Image, Residence, check};
 use crate::error::Result;
 use ash::vk;
@@ -89,19 +88,16 @@ impl Texture {
         staging.write(bytes);
         let mut commands = Commands::new(&self.device)?;
         let mut recording = commands.begin()?;
-        let barrier = || vk::ImageMemoryBarrier2::default().image(self.image.raw).subresource_range(WHOLE);
-        let written = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
-        let before = [barrier()
-            .new_layout(written)
-            .dst_stage_mask(vk::PipelineStageFlags2::ALL_TRANSFER)
-            .dst_access_mask(vk::AccessFlags2::TRANSFER_WRITE)];
-        recording.depend(&vk::DependencyInfo::default().image_memory_barriers(&before));
+        let (undefined, written) = (vk::ImageLayout::UNDEFINED, vk::ImageLayout::TRANSFER_DST_OPTIMAL);
+        let nothing = (vk::PipelineStageFlags2::NONE, vk::AccessFlags2::NONE);
+        let transfer = (vk::PipelineStageFlags2::ALL_TRANSFER, vk::AccessFlags2::TRANSFER_WRITE);
+        recording.transition(self.image.raw, undefined, nothing, written, transfer);
         let region = [vk::BufferImageCopy::default().image_subresource(LAYER).image_extent(vk::Extent3D {
             width,
             height,
             depth: 1,
         })];
-        // SAFETY: recording is under way, the barrier above gave the image this layout, and the buffer has its pixels.
+        // SAFETY: recording is under way, the transition above gave the image this layout, and the buffer has its pixels.
         unsafe {
             self.device.raw.cmd_copy_buffer_to_image(
                 recording.raw(),
@@ -111,14 +107,9 @@ impl Texture {
                 &region,
             );
         }
-        let after = [barrier()
-            .old_layout(written)
-            .new_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)
-            .src_stage_mask(vk::PipelineStageFlags2::ALL_TRANSFER)
-            .src_access_mask(vk::AccessFlags2::TRANSFER_WRITE)
-            .dst_stage_mask(vk::PipelineStageFlags2::FRAGMENT_SHADER)
-            .dst_access_mask(vk::AccessFlags2::SHADER_SAMPLED_READ)];
-        recording.depend(&vk::DependencyInfo::default().image_memory_barriers(&after));
+        let sampled = (vk::PipelineStageFlags2::FRAGMENT_SHADER, vk::AccessFlags2::SHADER_SAMPLED_READ);
+        let read = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
+        recording.transition(self.image.raw, written, transfer, read, sampled);
         recording.submit()?;
         commands.wait()
     }
