@@ -461,10 +461,10 @@ impl Panel {
         match (purpose, answer) {
             (_, Ok(None)) => {}
             (Purpose::Open, Ok(Some(file))) => self.open(&file),
-            (Purpose::Save(kind), Ok(Some(file))) => {
-                self.save_as(kind).choose(file);
-                return Some(kind);
-            }
+            (Purpose::Save(kind), Ok(Some(file))) => match self.save_as(kind).choose(file) {
+                Ok(()) => return Some(kind),
+                Err(why) => self.messages.fail(why),
+            },
             (_, Err(why)) => {
                 log::info!("no dialog: {why}");
                 self.messages.fail(

@@ -45,14 +45,22 @@ impl SaveAs {
     }
 
     /// Takes the file that was chosen in a dialog, which has asked whether to replace it. A name without an ending gets
-    /// that of the name before, and nobody was asked about that file.
-    pub(super) fn choose(&mut self, file: PathBuf) {
+    /// that of the name before, and nobody was asked about that file. A path that is no text does not fit into the field
+    /// of the panel: the error says so, and the name stays.
+    pub(super) fn choose(&mut self, file: PathBuf) -> Result<(), String> {
         let ending = Path::new(&self.file).extension().map(ToOwned::to_owned);
         let (file, replaces) = match (file.extension(), ending) {
             (None, Some(ending)) => (file.with_extension(ending), false),
             _ => (file, true),
         };
-        *self = Self { file: file.display().to_string(), offered: false, replaces };
+        let Some(name) = file.to_str() else {
+            let shown = file.display();
+            return Err(format!(
+                "{shown} is not written, because its path is no text in UTF-8. Choose another name or folder."
+            ));
+        };
+        *self = Self { file: name.to_owned(), offered: false, replaces };
+        Ok(())
     }
 
     /// Suggests a new name, after the file was saved.
@@ -95,4 +103,24 @@ pub(super) fn unused_name(name: &str) -> String {
         .chain(numbered)
         .find(|path| !typed(path).exists())
         .map_or_else(|| name.to_owned(), |path| path.display().to_string())
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+
+    /// Catches a path that is saved under replaced letters, and one that is refused although it is text.
+    #[test]
+    fn a_chosen_path_is_kept_as_it_is_or_refused() {
+        let mut name = SaveAs::new("one.png");
+        for bytes in [&b"/some\xff/two.png"[..], b"/some/two\xff.png", b"/some/two\xff"] {
+            let refused = name.choose(PathBuf::from(OsStr::from_bytes(bytes)));
+            assert!(refused.is_err_and(|why| why.contains("UTF-8")));
+            assert!(name.file == "one.png" && name.offered && !name.replaces, "the name is another now");
+        }
+        assert_eq!(name.choose("/some/zw\u{f6}lf".into()), Ok(()));
+        assert_eq!(name.file, "/some/zw\u{f6}lf.png");
+    }
 }
