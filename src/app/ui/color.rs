@@ -49,6 +49,8 @@ pub(super) fn pick_color(
         points_at_window =
             ui.is_window_hovered_with_flags(WindowHoveredFlags::ALLOW_WHEN_BLOCKED_BY_ACTIVE_ITEM);
     });
+    // The click also does what it does without the picker: a slider moves at once. The settings stay if the picture is only
+    // clicked.
     let clicked = MouseButton::VARIANTS.into_iter().any(|button| ui.is_mouse_clicked(button));
     if (clicked && !points_at_window && !points_at_patch) || ui.is_key_pressed(Key::Escape) {
         *open = None;
