@@ -189,7 +189,7 @@ fn the_drawing_stands_below_the_picture() {
 }
 
 /// Catches a button that keeps another point than the one that is drawn, that keeps it twice or over another one, or that
-/// forgets only a part; and kept light in the colour of another place.
+/// forgets only a part; kept light in the colour of another place; and a drawing that moves when the second button appears.
 #[test]
 fn the_light_of_points_is_kept_and_forgotten() {
     const POINT: &str = "Point in the drawing";
@@ -221,7 +221,8 @@ fn the_light_of_points_is_kept_and_forgotten() {
         viewer.drag_picture(1, [x, y], [to, y]);
         viewer.rest();
     };
-    let found = named(&saved("lens.svg"), "silver")[0].0;
+    let alone = saved("lens.svg");
+    let found = named(&alone, "silver")[0].0;
     keep();
     move_to(0.5);
     keep();
@@ -229,6 +230,10 @@ fn the_light_of_points_is_kept_and_forgotten() {
     // There is no room for a third one.
     keep();
     let text = saved("lens-2.svg");
+    let size = |text: &str| {
+        text.split("viewBox=\"").nth(1).and_then(|rest| rest.split('"').next().map(str::to_owned))
+    };
+    assert!(size(&text) == size(&alone), "the drawing makes room for a line that is not there");
     let (mut kept, moved) = (named(&text, "kept"), named(&text, "moved point"));
     kept.sort_by(|a, b| a.0.total_cmp(&b.0));
     let depths: Vec<f64> = kept.iter().map(|(depth, _)| *depth).collect();

@@ -74,21 +74,19 @@ impl Optics {
                 self.controls(ui, layout);
                 match diagram {
                     Some(diagram) => {
-                        ui.same_line();
                         let mut saves = None;
                         for (label, name, file, help) in [
                             ("Save SVG", "Save drawing", FILES[0], "Saves the drawing as an SVG file in the current folder. It can be enlarged without limit."),
                             ("Save PNG", "Save drawing as PNG", FILES[1], "Saves the drawing as a PNG file in the current folder, in twice as many pixels."),
                         ] {
+                            ui.same_line();
                             if ui.button(label) {
                                 saves = Some(file);
                             }
                             note_item(ui, name, layout);
                             tooltip(ui, help);
-                            ui.same_line();
                         }
                         self.keep(ui, diagram, layout);
-                        ui.new_line();
                         let look = Look {
                             size: ui.content_region_avail().map(f32::floor),
                             view: self.view,
@@ -129,6 +127,7 @@ impl Optics {
             return;
         }
         let free = self.kept.iter_mut().find(|kept| kept.is_none());
+        ui.same_line();
         ui.disabled(free.is_none() || diagram.hit.is_none(), || {
             let help = "Keeps the light of this point in the drawing while you choose the next one: blue in front of the focal plane, white in focus, orange behind it. Two can be kept.";
             if button(ui, "Keep", help, layout)
@@ -137,11 +136,11 @@ impl Optics {
                 *free = Some(hit.z);
             }
         });
-        ui.same_line();
-        if self.kept.iter().any(Option::is_some)
-            && button(ui, "Forget", "Takes the kept light out of the drawing.", layout)
-        {
-            self.kept = [None; KEPT];
+        if self.kept.iter().any(Option::is_some) {
+            ui.same_line();
+            if button(ui, "Forget", "Takes the kept light out of the drawing.", layout) {
+                self.kept = [None; KEPT];
+            }
         }
     }
 
