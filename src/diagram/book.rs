@@ -383,17 +383,17 @@ fn two_rays(front: &Front<'_>, min: Point, max: Point) -> Pane {
     }
     let names = [([0.0; 2], Role::Glass, front.opening()), (flat(picture[1]), Role::Faint, "view plane")];
     paper.row(paper.head(), &names);
-    let [x_axis, y_axis] = view_axes(diagram).map(|axis| axis[1]);
-    let (x_end, y_end) = (paper.place(flat(x_axis)), paper.place(flat(y_axis)));
-    paper.names.extend([(x_end, Role::Faint, "viewX"), (y_end, Role::Faint, "viewY")]);
     let rim: Vec<Point> = front.rim().map(|point| paper.place(flat(point))).collect();
     paper.pane.area(rim.clone(), Role::GlassInside);
     paper.pane.outline(rim, Role::Glass, 1.5);
     paper.dashed([0.0; 2], flat(diagram.q), Role::Centre);
     paper.line(flat(l), flat(r), Role::Primary, 2.0);
-    paper.dot(flat(l), Role::Glass, "l");
     paper.dot(flat(diagram.q), Role::Text, "q");
     paper.dot(flat(r), Role::Primary, "r");
+    let [x_end, y_end] = view_axes(diagram).map(|[_, end]| paper.place(flat(end)));
+    paper.names.extend([(x_end, Role::Faint, "viewX"), (y_end, Role::Faint, "viewY")]);
+    // The opening has room for its letter where there is none for the others, so that it chooses last.
+    paper.dot(flat(l), Role::Glass, "l");
     paper.finish()
 }
 

@@ -100,7 +100,8 @@ impl Role {
                     Side::Behind => 2,
                 };
                 let [red, green, blue] = colors[number].map(|level| to_srgb(level.into()) as f32);
-                [red, green, blue, 0.85]
+                // Names have this colour too, and a translucent blue is hard to read on the dark paper.
+                [red, green, blue, 1.0]
             }
             Self::Centre => [1.0, 1.0, 1.0, 0.80],
             Self::Blur => [1.0, 0.42, 0.47, 1.0],
@@ -267,23 +268,39 @@ impl Pane {
         self.shapes.push(Shape::Text { at, anchor, role, text });
     }
 
-    /// Writes the name of a thing beside its place, where there is no other text and no dot, and if possible no line. Without
-    /// such a place it is left out. What is drawn later may cover the name, so names come last.
-    pub(super) fn name(&mut self, [x, y]: Point, role: Role, name: &str) {
+    /// Writes the name of a thing beside its place, where there is no other text and no dot. If possible, no line crosses it
+    /// there, and no dot is nearer than the one that it names. Without a free place it is left out. What is drawn later may
+    /// cover the name, so names come last.
+    pub(super) fn name(&mut self, named @ [x, y]: Point, role: Role, name: &str) {
         let width = text_width(name);
-        let sides = [
-            [NEAR, -0.6 * LINE],
-            [NEAR, 0.6 * LINE],
-            [-NEAR - width, -0.6 * LINE],
-            [-NEAR - width, 0.6 * LINE],
-        ];
-        let places = [1.0, 2.0, 3.0, 4.0]
-            .into_iter()
-            .flat_map(|times| sides.map(|[right, down]| [x + times * right, y + times * down]));
+        let places = [1.0, 1.5, 2.0].into_iter().flat_map(|times| {
+            let (right, left, middle) = (x + times * NEAR, x - times * NEAR - width, x - 0.5 * width);
+            let (up, down) = (y - 0.6 * times * LINE, y + 0.6 * times * LINE);
+            [
+                [right, up],
+                [right, down],
+                [left, up],
+                [left, down],
+                [right, y],
+                [left, y],
+                [middle, up],
+                [middle, down],
+            ]
+        });
         let free: Vec<Point> = places.filter(|at| self.is_free(*at, width)).collect();
-        if let Some(at) = free.iter().find(|at| !self.is_crossed(**at, width)).or(free.first()) {
-            self.text(*at, Anchor::Start, role, name.to_owned());
+        let own = || free.iter().filter(|at| self.is_nearest(named, **at, width));
+        let best = own().find(|at| !self.is_crossed(**at, width)).or(own().next()).or(free.first());
+        if let Some(at) = best.copied() {
+            self.text(at, Anchor::Start, role, name.to_owned());
         }
+    }
+
+    /// Whether no dot is nearer than this place to a text of this width that stands there.
+    fn is_nearest(&self, named: Point, at: Point, width: f32) -> bool {
+        let own = distance(named, at, width);
+        let is_nearer =
+            |shape: &Shape| matches!(shape, Shape::Dot { at: dot, .. } if distance(*dot, at, width) < own);
+        !self.shapes.iter().any(is_nearer)
     }
 
     /// Whether a text of this width can stand there.
@@ -297,11 +314,7 @@ impl Pane {
                 let other = anchor.left(at[0], text_width(text));
                 left < other + text_width(text) && other < left + width && (y - at[1]).abs() < LETTERS
             }
-            Shape::Dot { at: [x, below], radius, .. } => {
-                let beside = (left - x).max(x - left - width).max(0.0);
-                let apart = ((y - below).abs() - 0.5 * LETTERS).max(0.0);
-                beside.hypot(apart) < *radius
-            }
+            Shape::Dot { at, radius, .. } => distance(*at, [left, y], width) < *radius,
             _ => false,
         });
         is_within && !is_covered
@@ -368,6 +381,12 @@ impl Pane {
             self.text([start, y], Anchor::Start, name.role, name.texts[0].clone());
         }
     }
+}
+
+/// How far a place is from a text of this width that begins at `left`.
+fn distance([x, y]: Point, [left, middle]: Point, width: f32) -> f32 {
+    let beside = (left - x).max(x - left - width).max(0.0);
+    beside.hypot(((y - middle).abs() - 0.5 * LETTERS).max(0.0))
 }
 
 /// The width of a text in the font of the drawing.

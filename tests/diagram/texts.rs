@@ -2,10 +2,10 @@
 
 use super::common::{Gpu, small};
 use super::*;
-use thinlens::diagram::{self, Drawing, KEPT, LETTERS, Look, Shape, VIEWS, View};
+use thinlens::diagram::{self, Drawing, KEPT, LETTERS, Look, Point, Role, Shape, Side, VIEWS, View};
 use thinlens::renderer::Excerpt;
 use thinlens::scene::CameraModel;
-use thinlens::settings::Settings;
+use thinlens::settings::{Settings, to_linear};
 
 /// Catches a sentence that says the wrong side, or blur where it is sharp; and a drawing without its numbers.
 #[test]
@@ -89,6 +89,39 @@ fn boxes(drawing: &Drawing) -> Vec<(&str, [f32; 4])> {
     boxes.collect()
 }
 
+/// How bright a part of the drawing looks on the paper, from 0 to 1.
+fn luminance(role: Role) -> f64 {
+    let [paper, [red, green, blue, opacity]] = [Role::Paper, role].map(Role::color);
+    let level = |above: f32, below: f32| to_linear((opacity * above + (1.0 - opacity) * below).into());
+    0.2126 * level(red, paper[0]) + 0.7152 * level(green, paper[1]) + 0.0722 * level(blue, paper[2])
+}
+
+/// Catches text that is hard to read on the paper: 4.5 is the least contrast that the Web Content Accessibility Guidelines
+/// ask for.
+#[test]
+fn every_text_is_legible() {
+    let gpu = Gpu::new();
+    let diagram = drawn(&gpu, &small("version-4"), [20.5, 38.5]).expect("it is drawn");
+    let (focus, _) = diagram.focus.expect("a lens");
+    let mut roles: Vec<Role> = Vec::new();
+    for kept in [[None; KEPT], [Some(0.5 * focus), Some(focus)], [Some(2.0 * focus), None]] {
+        for entry in &VIEWS {
+            let look =
+                Look { view: entry.view, size: [1580.0, 400.0], sharp: Some([9.0, 12.0]), kept, ..LOOK };
+            for shape in shapes(&diagram::draw(&diagram, &look)) {
+                if let Shape::Text { role, text, .. } = shape {
+                    let contrast = (luminance(*role) + 0.05) / (luminance(Role::Paper) + 0.05);
+                    assert!(contrast >= 4.5, "'{text}' has the contrast {contrast:.2}");
+                    roles.push(*role);
+                }
+            }
+        }
+    }
+    for side in [Side::InFront, Side::InFocus, Side::Behind] {
+        assert!(roles.contains(&Role::LightOf(side)), "no name has the colour of {side:?}");
+    }
+}
+
 /// Catches text over other text, and text that is cut off at the edge of the drawing.
 #[test]
 fn no_text_covers_another() {
@@ -141,7 +174,39 @@ fn no_text_covers_another() {
     }
 }
 
-/// Catches a dot over a letter, most of all in a low strip, where the points of a figure lie near one another.
+/// Each letter is near the dot of its colour and, where there is room, nearer to it than to any other dot.
+fn letters_stand_at_their_dots(drawing: &Drawing, what: &str) {
+    let dots: Vec<(Point, Role)> = shapes(drawing)
+        .filter_map(|shape| match shape {
+            Shape::Dot { at, role, .. } => Some((*at, *role)),
+            _ => None,
+        })
+        .collect();
+    let roles = shapes(drawing).filter_map(|shape| match shape {
+        Shape::Text { role, .. } => Some(*role),
+        _ => None,
+    });
+    for ((letter, [left, top, right, bottom]), role) in boxes(drawing).into_iter().zip(roles) {
+        if letter.len() > 1 {
+            continue;
+        }
+        let away =
+            |[x, y]: Point| (left - x).max(x - right).max(0.0).hypot((top - y).max(y - bottom).max(0.0));
+        let nearest = |of: &dyn Fn(Role) -> bool| {
+            dots.iter().filter(|(_, role)| of(*role)).map(|(at, _)| away(*at)).fold(f32::MAX, f32::min)
+        };
+        let (own, other) = (nearest(&|of| of == role), nearest(&|of| of != role));
+        let has_room = drawing.size[1] >= 300.0;
+        assert!(own < 25.0, "{what}: '{letter}' is {own} from its dot");
+        assert!(
+            !has_room || own < other + 1.0,
+            "{what}: '{letter}' is {own} from its dot, {other} from another"
+        );
+    }
+}
+
+/// Catches a dot over a letter, a letter far from its dot or nearer to another one, most of all in a low strip, where the
+/// points of a figure lie near one another.
 #[test]
 fn no_dot_covers_a_letter() {
     let gpu = Gpu::new();
@@ -173,6 +238,9 @@ fn no_dot_covers_a_letter() {
                         assert!(beside.hypot(apart) >= *radius, "{what}: a dot at {x} {y} covers '{text}'");
                     }
                 }
+            }
+            if matches!(entry.view, View::Layout | View::TwoRays) {
+                letters_stand_at_their_dots(&drawing, &what);
             }
             // Where there is room, no letter of a point is left out that the figure shows.
             let points = [diagram.hit.map(|hit| hit.z), diagram.focus.map(|(depth, _)| depth)];
