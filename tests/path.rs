@@ -28,7 +28,7 @@ fn paths_follow_the_oracle() {
         }
         Ok(figures.join(", "))
     };
-    prove(check, &["path"]);
+    prove(check, &["paths"]);
 }
 
 /// A ball of this material, in a camera that sees nothing else, under a sky of radiance 1.

@@ -27,13 +27,15 @@ float survival_probability(const vec3 throughput, const uint bounce) {
 // The weight of a sample that another strategy could have chosen too, with this density: the power heuristic of E. Veach,
 // "Robust Monte Carlo Methods for Light Transport Simulation", 1997, section 9.2.
 float strategy_weight(const float own, const float other) {
-    return own * own / (own * own + other * other);
+    // The square of the density of a tiny lamp would overflow.
+    float ratio = other / own;
+    return 1.0 / (1.0 + ratio * ratio);
 }
 
 // The light of a lamp that the surface scatters towards the viewer.
 vec3 light_of_lamp(
-    const Material material, const vec3 color, const SurfacePoint at, const vec3 to_viewer, const vec4 xi,
-    inout uint rays, inout bool given_up
+    const Material material, const vec3 color, const SurfacePoint at, const vec3 to_viewer, const Media here,
+    const vec4 xi, inout uint rays, inout bool given_up
 ) {
     LampSample lamp = sample_lamps(at.offset_position, xi);
     Scattered scattered = material_scattered(material, color, at, lamp.direction, to_viewer);
@@ -45,7 +47,12 @@ vec3 light_of_lamp(
         return vec3(0.0);
     }
     float weight = strategy_weight(lamp.density, scattered.density);
-    return (weight / lamp.density) * scattered.share * lamp.radiance;
+    vec3 arriving = lamp.radiance;
+    if (HAS_MEDIA) {
+        // Nothing lies between the surface and the lamp, so they are in the same body.
+        arriving *= transmittance(here, lamp.distance);
+    }
+    return (weight / lamp.density) * scattered.share * arriving;
 }
 
 // The radiance that arrives along the ray, by light that was scattered at most max_bounces times. rays counts every ray
@@ -77,7 +84,7 @@ vec3 radiance(Ray ray, const PathSampler path, const uint max_bounces, inout uin
             }
         }
         vec3 emitted = material_emission(material, color);
-        if (HAS_LAMPS == 1u && density > 0.0 && emitted != vec3(0.0) && hit.kind < SHAPE_PLANE) {
+        if (HAS_LAMPS == 1u && density > 0.0 && emitted != vec3(0.0) && HAS_KIND(BOUNDED_KINDS, hit.kind)) {
             emitted *= strategy_weight(density, lamp_density(hit, ray.origin, ray.direction, at, emitted));
         }
         sum += throughput * emitted;
@@ -86,7 +93,7 @@ vec3 radiance(Ray ray, const PathSampler path, const uint max_bounces, inout uin
         }
         if (HAS_LAMPS == 1u) {
             vec4 of_lamp = path_values(path, bounce, USE_LIGHT);
-            sum += throughput * light_of_lamp(material, color, at, -ray.direction, of_lamp, rays, given_up);
+            sum += throughput * light_of_lamp(material, color, at, -ray.direction, here, of_lamp, rays, given_up);
         }
         vec4 xi = path_values(path, bounce, USE_DIRECTION);
         Scatter scatter = material_sample(material, color, at, -ray.direction, xi.xyz);

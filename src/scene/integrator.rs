@@ -1,6 +1,12 @@
 //! The integrators, and what each of them can render.
 
 use super::Scene;
+use glam::Vec3;
+
+const NO_AMBIENT: &str = "knows no ambient light, because light comes from lamps and from the sky: leave out [ambient], \
+                          and give [background] a color";
+const NO_LIGHTS: &str = "knows no lights without extent: leave out [[point]] and [[directional]], and use emissive \
+                         materials and [background]";
 
 /// What finds the radiance along a ray. Each has a file with its name in `shaders/integrator`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -30,19 +36,11 @@ impl Integrator {
     /// # Errors
     /// The reason, as a part of a sentence after the name of the integrator.
     pub fn can_render(self, scene: &Scene) -> Result<(), String> {
-        if self == Self::Path {
-            if scene.ambient != glam::Vec3::ZERO {
-                return Err(
-                    "knows no ambient light, because light comes from lamps and from the sky: leave out \
-                            [ambient], and give [background] a color"
-                        .into(),
-                );
-            }
-            if !scene.lights.is_empty() {
-                return Err("knows no lights without extent: leave out [[point]] and [[directional]], and use emissive \
-                            materials and [background]"
-                    .into());
-            }
+        if self == Self::Path && scene.ambient != Vec3::ZERO {
+            return Err(NO_AMBIENT.into());
+        }
+        if self == Self::Path && !scene.lights.is_empty() {
+            return Err(NO_LIGHTS.into());
         }
         let named = scene.materials.iter().zip(&scene.material_names);
         let refused = named.filter_map(|(material, name)| Some((material.refusal(self)?, name)));

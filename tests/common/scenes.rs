@@ -142,6 +142,14 @@ center = [-1.1, 0.6, 0.2]
 radius = 0.35
 material = "air"
 [[sphere]]
+center = [-1.1, 1.06, 0.2]
+radius = 0.05
+material = "lamp"
+[[sphere]]
+center = [-0.75, 0.7, 0.5]
+radius = 0.06
+material = "floor"
+[[sphere]]
 center = [0.1, 0.4, 1.1]
 radius = 0.4
 material = "clear"

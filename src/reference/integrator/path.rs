@@ -64,7 +64,7 @@ impl Path<'_> {
             return left * emitted;
         }
         let min_distance = MIN_DISTANCE * surface.magnitude;
-        let from_lamp = self.light_of_lamp(material, &surface, &ray, min_distance, bounce);
+        let from_lamp = self.light_of_lamp(material, &surface, &ray, min_distance, bounce, inside);
         let shown = left * (emitted + from_lamp);
         let [first, second, third, chance] = (self.values)(bounce, Use::Direction);
         let Some(Scatter { direction, weight, density }) =
@@ -92,6 +92,7 @@ impl Path<'_> {
         ray: &Ray,
         min_distance: f64,
         bounce: u32,
+        inside: &[u32],
     ) -> DVec3 {
         let values = || (self.values)(bounce, Use::Light);
         let Some(lamp) = self.lamps.sample(surface.position, ray.time, values()) else {
@@ -108,7 +109,8 @@ impl Path<'_> {
         if blocker.is_some_and(|hit| hit.distance < 0.9999 * lamp.distance) {
             return DVec3::ZERO;
         }
-        share(lamp.density, density) * reflected * lamp.radiance / lamp.density
+        let arriving = self.left_after(lamp.distance, inside) * lamp.radiance;
+        share(lamp.density, density) * reflected * arriving / lamp.density
     }
 
     /// The body that a ray entered last, if it is inside of any.
