@@ -107,15 +107,17 @@ impl Drop for Gpu {
 
 /// Proves that a check sees mistakes: it must pass with the shaders as they are, and fail with each of the faults
 /// asked for, by their tags or names in `tests/faults`. A check gives its figures, or what is wrong. The faults try the
-/// tests and not the driver, so `THINLENS_FAULTS=none` leaves them out, for a driver that needs hours for them.
+/// tests and not the driver, so the tests that run once more as a GPU leave them out, and so does `THINLENS_FAULTS=none`, for
+/// a driver that needs hours for them.
 pub fn prove(check: impl Fn(&Gpu) -> anyhow::Result<String>, asked: &[&str]) {
     let mut gpu = Gpu::new();
     match check(&gpu) {
         Ok(figures) => println!("holds: {figures}"),
         Err(error) => panic!("{error:#}"),
     }
-    if std::env::var_os("THINLENS_FAULTS").is_some_and(|choice| choice == "none") {
-        println!("no fault was planted, because THINLENS_FAULTS is none");
+    // The same tests have found the same faults on the device as it is.
+    if as_gpu() || std::env::var_os("THINLENS_FAULTS").is_some_and(|choice| choice == "none") {
+        println!("no fault was planted");
         return;
     }
     for asked in asked {
