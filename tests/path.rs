@@ -195,3 +195,25 @@ fn the_strategies_share_the_light() {
         assert!((0.995..1.003).contains(&mean), "{material}: {mean}");
     }
 }
+
+/// Catches light that a lamp sends through a coloured body as if it were clear: a floor and a small lamp one unit away lie in
+/// a body of index 1, which absorbs half of the light on each unit, and the camera looks in from outside.
+#[test]
+fn a_body_absorbs_the_light_of_the_lamps_inside() {
+    let check = |gpu: &Gpu| -> Result<String> {
+        let scene = "integrator = \"path\"\nmax_bounces = 2\n[camera]\neye = [0, 4, 3]\nlook_at = [0, 0, 0]\n\
+                     vfov_degrees = 0.01\nlens_diameter = 0\nfocal_distance = 5\n[matte.floor]\ncolor = [0.5, 0.5, 0.5]\n\
+                     [emissive.lamp]\nradiance = 3\n[glass.tint]\nindex = 1\ncolor = [0.5, 0.5, 0.5]\n\
+                     [[plane]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\nmaterial = \"floor\"\n\
+                     [[box]]\nlower = [-9, -1, -9]\nupper = [9, 2, 9]\nmaterial = \"tint\"\n\
+                     [[sphere]]\ncenter = [0.6, 0.8, 0]\nradius = 0.02\nmaterial = \"lamp\"\n";
+        let film = film(gpu, &settings_of(scene, [16, 16], 1024));
+        let mean = film.iter().map(|texel| f64::from(texel[0])).sum::<f64>() / film.len() as f64;
+        // The ray of the camera is in the body for 2 units of height, on 5 units for 4 of height.
+        let left = 0.5_f64.powf(1.0 + 2.5);
+        let expected = left * 0.5 * 3.0 * 0.02_f64.powi(2) * 0.8;
+        ensure!((mean / expected - 1.0).abs() < 0.02, "{mean}, not {expected}");
+        Ok(format!("{mean}"))
+    };
+    prove(check, &["body_absorbs_nothing_of_its_lamps"]);
+}
