@@ -3,6 +3,7 @@
 #ifndef ADAPTIVE_GLSL
 #define ADAPTIVE_GLSL
 
+#include "core/color.glsl"
 #include "core/film.glsl"
 
 layout(constant_id = ID_HAS_MOMENTS) const uint HAS_MOMENTS = 0u;
@@ -31,11 +32,6 @@ bool find_pixel(const Lattice lattice, out uvec2 pixel) {
     uint row = visited_row(lattice, lattice.first_row + gl_WorkGroupID.y);
     pixel = lattice_pixel(lattice, GROUP_SIZE * uvec2(gl_WorkGroupID.x, row) + place);
     return inside(pixel, lattice.extent);
-}
-
-// The luminance of a linear colour with the primaries of Rec. 709.
-float luminance(const vec3 color) {
-    return dot(color, vec3(0.2126, 0.7152, 0.0722));
 }
 
 // The second moment of two sets of samples together, which is the sum of squared differences from their mean:

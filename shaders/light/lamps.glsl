@@ -5,6 +5,7 @@
 #ifndef LAMPS_GLSL
 #define LAMPS_GLSL
 
+#include "core/color.glsl"
 #include "core/sampling.glsl"
 #include "scene/surface.glsl"
 
@@ -27,13 +28,9 @@ struct LampSample {
     float density; // of the directions, per solid angle
 };
 
-float lamp_luminance(const vec3 radiance) {
-    return dot(radiance, vec3(0.2126, 0.7152, 0.0722));
-}
-
 // The share of all samples that fall on a part of a lamp of area 1.
 float density_per_area(const vec3 radiance) {
-    return lamp_luminance(radiance) / counts.lamp_power;
+    return luminance(radiance) / counts.lamp_power;
 }
 
 // The solid angle of a sphere, as seen from a point outside, and the cosine at the edge of the cone that it fills.

@@ -87,7 +87,8 @@ impl Brightest {
     }
 }
 
-fn luminance(color: DVec3) -> f64 {
+/// The luminance of a linear colour with the primaries of Rec. 709.
+pub(super) fn luminance(color: DVec3) -> f64 {
     color.dot(DVec3::new(0.2126, 0.7152, 0.0722))
 }
 

@@ -1,6 +1,7 @@
 //! Lights in the form that the shaders read. Each kind of light has a match arm.
 
 use super::ShapeRecord;
+use super::brightest::luminance;
 use super::denormal::flush_denormals;
 use super::shape::on_device;
 use crate::interface::light;
@@ -74,7 +75,7 @@ impl Lamp {
         let mut lamps = Vec::new();
         for of in scene.shapes.iter() {
             let radiance = emitted(of);
-            let of_lamp = f64::from(radiance.dot(LUMINANCE)) * of.shape.area().unwrap_or(0.0);
+            let of_lamp = luminance(radiance.as_dvec3()) * of.shape.area().unwrap_or(0.0);
             if of_lamp > 0.0 {
                 power += of_lamp;
                 ends.push(power);
@@ -93,9 +94,6 @@ impl Lamp {
         (lamps, power)
     }
 }
-
-/// The luminance of linear red, green and blue.
-const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 
 impl Environment {
     /// The sky and the ambient light of a scene whose bounded shapes lie within `bounding_radius` of the origin.
