@@ -157,6 +157,14 @@ pub enum Error {
         /// What is wrong, and what to do.
         message: String,
     },
+    /// An image cannot be shown.
+    #[error("{file}: {message}")]
+    Image {
+        /// The image's file.
+        file: String,
+        /// What is wrong, and what to do.
+        message: String,
+    },
     /// A setting is out of its range.
     #[error("{0}")]
     OutOfRange(String),

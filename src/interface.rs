@@ -46,6 +46,10 @@ pub mod binding {
         LIGHTS,
         /// The shapes that emit light.
         LAMPS,
+        /// The texels of images.
+        IMAGE_TEXELS,
+        /// How probably a direction is chosen from each texel of the sky's image.
+        SKY_CHANCES,
         /// What rays need of the scene wherever they are: the sky, the numbers of things, and all lights and listed shapes
         /// of a small scene.
         SCENE,
@@ -99,6 +103,8 @@ pub mod constant {
         LIGHT_KINDS,
         /// Whether any bounded shape emits light.
         HAS_LAMPS,
+        /// Whether the sky is an image.
+        HAS_PANORAMA,
         /// Whether any triangle has normals at its corners.
         HAS_CORNER_NORMALS,
         /// Whether any shape moves.

@@ -66,12 +66,4 @@ vec2 lit_disk(const vec2 xi) {
     return point;
 }
 
-// Cosine and sine of an angle up to pi / 3. The errors of the built-in functions may be as large as 2^-11.
-vec2 cosine_and_sine(const float angle) {
-    float a2 = angle * angle;
-    float cosine = 1.0 + a2 * (-0.5 + a2 * (1.0 / 24.0 + a2 * (-1.0 / 720.0 + a2 * (1.0 / 40320.0 - a2 / 3628800.0))));
-    float sine = angle * (1.0 + a2 * (-1.0 / 6.0 + a2 * (1.0 / 120.0 + a2 * (-1.0 / 5040.0 + a2 / 362880.0))));
-    return vec2(cosine, sine);
-}
-
 #endif

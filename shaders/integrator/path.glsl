@@ -6,8 +6,7 @@
 
 #include "core/sampling.glsl"
 #include "integrator/media.glsl"
-#include "light/lamps.glsl"
-#include "light/light.glsl"
+#include "light/sky.glsl"
 #include "material/material.glsl"
 
 // A path of so many surfaces always goes on. After that, it ends by chance (Russian roulette), the sooner the less light
@@ -32,12 +31,36 @@ float strategy_weight(const float own, const float other) {
     return 1.0 / (1.0 + ratio * ratio);
 }
 
-// The light of a lamp that the surface scatters towards the viewer.
-vec3 light_of_lamp(
+// The share of light samples that the sky gets: half of them where there are lamps too.
+float share_of_sky() {
+    if (HAS_PANORAMA == 0u) {
+        return 0.0;
+    }
+    if (HAS_LAMPS == 0u) {
+        return 1.0;
+    }
+    return 0.5;
+}
+
+// A direction in which the sky or a lamp can be seen from a point.
+LampSample sample_light(const vec3 from, const vec4 xi) {
+    float of_sky = share_of_sky();
+    if (HAS_PANORAMA == 1u && xi.w < of_sky) {
+        LampSample chosen = sample_sky(xi.yz);
+        chosen.density *= of_sky;
+        return chosen;
+    }
+    LampSample chosen = sample_lamps(from, xi);
+    chosen.density *= 1.0 - of_sky;
+    return chosen;
+}
+
+// The light of a lamp or of the sky that the surface scatters towards the viewer.
+vec3 direct_light(
     const Material material, const vec3 color, const SurfacePoint at, const vec3 to_viewer, const Media here,
     const vec4 xi, inout uint rays, inout bool given_up
 ) {
-    LampSample lamp = sample_lamps(at.offset_position, xi);
+    LampSample lamp = sample_light(at.offset_position, xi);
     Scattered scattered = material_scattered(material, color, at, lamp.direction, to_viewer);
     if (scattered.density <= 0.0 || lamp.density <= 0.0) {
         return vec3(0.0);
@@ -68,7 +91,11 @@ vec3 radiance(Ray ray, const PathSampler path, const uint max_bounces, inout uin
         ++rays;
         Hit hit = intersect_scene(ray, given_up);
         if (hit.distance >= MISS) {
-            sum += throughput * background(ray.direction);
+            vec3 seen = sky_radiance(ray.direction);
+            if (HAS_PANORAMA == 1u && density > 0.0) {
+                seen *= strategy_weight(density, share_of_sky() * sky_density(ray.direction));
+            }
+            sum += throughput * seen;
             break;
         }
         SurfacePoint at = surface_point(ray, hit);
@@ -85,15 +112,16 @@ vec3 radiance(Ray ray, const PathSampler path, const uint max_bounces, inout uin
         }
         vec3 emitted = material_emission(material, color);
         if (HAS_LAMPS == 1u && density > 0.0 && emitted != vec3(0.0) && HAS_KIND(BOUNDED_KINDS, hit.kind)) {
-            emitted *= strategy_weight(density, lamp_density(hit, ray.origin, ray.direction, at, emitted));
+            float of_lamps = (1.0 - share_of_sky()) * lamp_density(hit, ray.origin, ray.direction, at, emitted);
+            emitted *= strategy_weight(density, of_lamps);
         }
         sum += throughput * emitted;
         if (bounce == max_bounces) {
             break;
         }
-        if (HAS_LAMPS == 1u) {
-            vec4 of_lamp = path_values(path, bounce, USE_LIGHT);
-            sum += throughput * light_of_lamp(material, color, at, -ray.direction, here, of_lamp, rays, given_up);
+        if ((HAS_LAMPS | HAS_PANORAMA) == 1u) {
+            vec4 of_light = path_values(path, bounce, USE_LIGHT);
+            sum += throughput * direct_light(material, color, at, -ray.direction, here, of_light, rays, given_up);
         }
         vec4 xi = path_values(path, bounce, USE_DIRECTION);
         Scatter scatter = material_sample(material, color, at, -ray.direction, xi.xyz);

@@ -29,6 +29,9 @@ struct Environment {
     vec3 zenith;
     vec3 ambient; // radiance
     float bounding_radius; // every shape but planes lies within this distance of the origin, at any time
+    uvec2 panorama_size; // columns and rows
+    float panorama_scale; // what the texels are multiplied by
+    float panorama_turns; // by how much the sky is turned anticlockwise, as seen from above
 };
 
 // The kinds of lights in the buffer, a bit for each: the code for all other kinds is left out.

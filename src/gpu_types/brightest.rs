@@ -6,7 +6,6 @@ use crate::interface::DISPERSION;
 use crate::scene::{Frame, Integrator, Plane, Scene};
 use crate::settings::Estimator;
 use glam::{DQuat, DVec2, DVec3, Vec3};
-use std::f64::consts::PI;
 
 /// An upper bound for the luminance that a pixel's rays can meet, for each cell of a grid over the picture.
 ///
@@ -93,7 +92,7 @@ pub(super) fn luminance(color: DVec3) -> f64 {
 }
 
 fn sky(scene: &Scene) -> DVec3 {
-    scene.background.horizon.max(scene.background.zenith).as_dvec3()
+    scene.background.brightest().as_dvec3()
 }
 
 /// The highest luminance that each material can show, by its own light or as a mirror of the brightest thing.
@@ -102,7 +101,7 @@ fn luminances(estimator: &Estimator) -> Vec<f32> {
     let light: DVec3 = match estimator.integrator {
         Integrator::Whitted => scene.lights.iter().map(|light| light.radiance.as_dvec3()).sum(),
         // The light of the whole sky. That of lamps comes with every sample.
-        Integrator::Path => PI * sky(scene),
+        Integrator::Path => scene.background.most_irradiance(),
     };
     let own: Vec<DVec3> =
         scene.materials.iter().map(|material| material.brightest(light, scene.ambient.as_dvec3())).collect();

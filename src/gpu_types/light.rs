@@ -2,7 +2,7 @@
 
 use super::ShapeRecord;
 use super::brightest::luminance;
-use super::denormal::flush_denormals;
+use super::denormal::{flush_denormal, flush_denormals};
 use super::shape::on_device;
 use crate::interface::light;
 use crate::scene::{self, LightKind, Scene, Shaded};
@@ -29,6 +29,9 @@ pub struct Environment {
     pub pad1: u32,
     pub ambient: [f32; 3],
     pub bounding_radius: f32,
+    pub panorama_size: [u32; 2],
+    pub panorama_scale: f32,
+    pub panorama_turns: f32,
 }
 
 impl Light {
@@ -98,11 +101,16 @@ impl Lamp {
 impl Environment {
     /// The sky and the ambient light of a scene whose bounded shapes lie within `bounding_radius` of the origin.
     pub fn new(scene: &Scene, bounding_radius: f32) -> Self {
+        let sky = scene.background.gradient();
+        let panorama = scene.background.panorama();
         Self {
-            horizon: flush_denormals(scene.background.horizon),
-            zenith: flush_denormals(scene.background.zenith),
+            horizon: flush_denormals(sky.horizon),
+            zenith: flush_denormals(sky.zenith),
             ambient: flush_denormals(scene.ambient),
             bounding_radius,
+            panorama_size: panorama.map_or([0; 2], |of| of.image.size),
+            panorama_scale: panorama.map_or(0.0, |of| flush_denormal(of.radiance * of.image.scale)),
+            panorama_turns: panorama.map_or(0.0, |of| of.turn_degrees / 360.0),
             ..Zeroable::zeroed()
         }
     }

@@ -4,7 +4,7 @@ use super::denormal::flush_denormals;
 use super::shape::on_device;
 use super::{Environment, Lamp, Light, Material, ShapeRecord, TreeNode};
 use crate::interface::{SMALL_SCENE, shape};
-use crate::scene::{Bvh, Node, Record, SceneRef, Shaded, Shape, Triangle};
+use crate::scene::{Bvh, Node, Panorama, Record, SceneRef, Shaded, Shape, Triangle};
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
 
@@ -52,6 +52,8 @@ pub struct SceneColors {
     /// The sum over the lamps of luminance times area.
     pub lamp_power: f32,
     pub environment: Environment,
+    /// The image of the sky, if it has one.
+    pub panorama: Option<Panorama>,
     /// Whether any material mirrors.
     pub reflects: bool,
 }
@@ -203,6 +205,7 @@ impl SceneColors {
             lamps,
             lamp_power: lamp_power as f32,
             environment: Environment::new(scene, reach),
+            panorama: scene.background.panorama().cloned(),
         }
     }
 }

@@ -5,6 +5,7 @@ use crate::gpu_types::{SceneBlock, SceneColors, SceneCounts, SceneData};
 use crate::interface::{SPELLED_OUT_STACK, STACK_INDEX_BITS, binding, constant, scene_in, shape};
 use crate::vulkan::{Binding, Buffer, Device, TexelBuffer, UniformBuffer};
 use bytemuck::Pod;
+use half::f16;
 use std::sync::Arc;
 
 /// As many records as the bits for a record's index can tell apart in the stack of bvh.glsl.
@@ -16,11 +17,16 @@ const STACK_STEP: u32 = 4;
 /// The bits of a sample index, which the Sobol sequence goes through, and the searches in an aperture's image.
 const SAMPLER_LOOP_STEPS: u64 = 24 + 16;
 
+/// The most steps of the search for a lamp, or for a texel of the sky.
+const LIGHT_SEARCH_STEPS: u64 = 32;
+
 /// What the passes read of a scene, and the constants that they are compiled for.
 pub struct SceneBuffers {
     shapes: Arc<ShapeBuffers>,
     bindings: Vec<(u32, Binding)>,
-    lamps: Binding,
+    /// What only integrators read that sample lights: lamps and the image of the sky.
+    of_sampled_light: Vec<(u32, Binding)>,
+    has_panorama: bool,
     constants: Vec<(u32, u32)>,
     counts: SceneCounts,
     /// How many entries the stack of the tree has; 0 where there is no tree.
@@ -115,8 +121,25 @@ impl SceneBuffers {
         ];
         let constants = shapes.constants(colors);
         let tree_depth = shapes.stack_size(shapes.place(colors));
-        let lamps = buffer(device, "lamps", &colors.lamps)?;
-        Ok(Self { shapes, bindings, lamps, constants, counts, tree_depth, reflects: colors.reflects })
+        let panorama = colors.panorama.as_ref();
+        let image: &[[f16; 4]] = panorama.map_or(&[], |sky| &sky.image.texels);
+        let chances =
+            panorama.map_or_else(Vec::new, |sky| [&sky.chances.rows[..], &sky.chances.columns].concat());
+        let of_sampled_light = vec![
+            (binding::LAMPS, buffer(device, "lamps", &colors.lamps)?),
+            (binding::IMAGE_TEXELS, texels(device, "images", image)?),
+            (binding::SKY_CHANCES, buffer(device, "the image of the sky", &chances)?),
+        ];
+        Ok(Self {
+            shapes,
+            bindings,
+            of_sampled_light,
+            has_panorama: panorama.is_some(),
+            constants,
+            counts,
+            tree_depth,
+            reflects: colors.reflects,
+        })
     }
 
     /// Whether some of the scene's shapes are in a tree.
@@ -142,7 +165,8 @@ impl SceneBuffers {
         let tree = u64::from(self.counts.max_tree_steps) * (1 + too_deep);
         let shapes = u64::from(self.listed_shapes()) + tree;
         let lights = u64::from(self.most_lights());
-        SAMPLER_LOOP_STEPS + (1 + u64::from(bounces)) * (1 + shapes + lights * (1 + shapes))
+        let search = if self.samples_light() { LIGHT_SEARCH_STEPS } else { 1 };
+        SAMPLER_LOOP_STEPS + (1 + u64::from(bounces)) * (1 + shapes + lights * (search + shapes))
     }
 
     /// Explains [`SceneBuffers::max_loop_steps`] in words, for an error message.
@@ -161,9 +185,14 @@ impl SceneBuffers {
         )
     }
 
-    /// The most lights that are looked at from a surface: each light, or one of the lamps.
+    /// The most lights that are looked at from a surface: each light, or one that is sampled.
     fn most_lights(&self) -> u32 {
-        self.counts.lights.max(u32::from(self.counts.lamps > 0))
+        self.counts.lights.max(self.samples_light().into())
+    }
+
+    /// Whether there is light that an integrator can sample.
+    fn samples_light(&self) -> bool {
+        self.counts.lamps > 0 || self.has_panorama
     }
 
     /// The number of shapes in the list.
@@ -171,9 +200,9 @@ impl SceneBuffers {
         self.counts.list_ends[shape::NAMES.len() - 1]
     }
 
-    /// The binding of `shaders/light/lamps.glsl`.
-    pub fn lamps(&self) -> (u32, Binding) {
-        (binding::LAMPS, self.lamps.clone())
+    /// Every binding of `shaders/light/sky.glsl` and `lamps.glsl`.
+    pub fn of_sampled_light(&self) -> Vec<(u32, Binding)> {
+        self.of_sampled_light.clone()
     }
 
     /// Every binding of `shaders/scene/scene.glsl` and `bvh.glsl`.
@@ -234,6 +263,7 @@ impl ShapeBuffers {
             (constant::TEXTURE_KINDS, colors.texture_kinds),
             (constant::LIGHT_KINDS, colors.light_kinds),
             (constant::HAS_LAMPS, (!colors.lamps.is_empty()).into()),
+            (constant::HAS_PANORAMA, colors.panorama.is_some().into()),
             (constant::HAS_CORNER_NORMALS, self.has_normals.into()),
             (constant::MAX_TREE_STEPS, known_if(kept, counts.max_tree_steps)),
         ];

@@ -11,8 +11,8 @@ use std::sync::Arc;
 pub struct Trace {
     pipeline: ComputePipeline,
     tile: BlueNoiseTile,
-    /// Whether the integrator looks for lamps.
-    has_lamps: bool,
+    /// Whether the integrator samples lamps and the sky.
+    samples_light: bool,
 }
 
 impl Trace {
@@ -30,8 +30,8 @@ impl Trace {
     ) -> Result<Self> {
         let constants = [scene.constants(), estimator].concat();
         let pipeline = ComputePipeline::new(device, shader, &constants)?;
-        let has_lamps = shader.interface().resources.contains_key(&binding::LAMPS);
-        Ok(Self { pipeline, tile: tile.clone(), has_lamps })
+        let samples_light = shader.interface().resources.contains_key(&binding::LAMPS);
+        Ok(Self { pipeline, tile: tile.clone(), samples_light })
     }
 
     /// The pass traces `scene` through `aperture` into the tracing image `traced`, and adds to `counters`. Once some
@@ -46,7 +46,9 @@ impl Trace {
         list: usize,
     ) -> Result<BindingSet> {
         let mut bindings = scene.bindings();
-        bindings.extend(self.has_lamps.then(|| scene.lamps()));
+        if self.samples_light {
+            bindings.extend(scene.of_sampled_light());
+        }
         bindings.extend(aperture.bindings());
         bindings.extend([
             (binding::TRACED_IMAGE, Binding::Image(Arc::clone(traced))),

@@ -8,6 +8,9 @@ const NO_AMBIENT: &str = "knows no ambient light, because light comes from lamps
 const NO_LIGHTS: &str = "knows no lights without extent: leave out [[point]] and [[directional]], and use emissive \
                          materials and [background]";
 
+const NO_PANORAMA: &str =
+    "does not show an image as the background: use the integrator path, or give [background] a color";
+
 /// What finds the radiance along a ray. Each has a file with its name in `shaders/integrator`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Integrator {
@@ -41,6 +44,9 @@ impl Integrator {
         }
         if self == Self::Path && !scene.lights.is_empty() {
             return Err(NO_LIGHTS.into());
+        }
+        if self == Self::Whitted && scene.background.panorama().is_some() {
+            return Err(NO_PANORAMA.into());
         }
         let named = scene.materials.iter().zip(&scene.material_names);
         let refused = named.filter_map(|(material, name)| Some((material.refusal(self)?, name)));

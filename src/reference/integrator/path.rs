@@ -3,8 +3,8 @@
 use super::{Limits, MIN_DISTANCE, PathValues};
 use crate::reference::Ray;
 use crate::reference::intersect::intersect;
-use crate::reference::light::background;
-use crate::reference::light::lamps::Lamps;
+use crate::reference::light::lamps::{LampSample, Lamps};
+use crate::reference::light::sky;
 use crate::reference::material::{Kind, Scatter, kind_of};
 use crate::reference::sampler::Use;
 use crate::reference::surface::Surface;
@@ -38,7 +38,11 @@ impl Path<'_> {
         density: Option<f64>,
     ) -> DVec3 {
         let Some(hit) = intersect(self.scene, ray, min_distance) else {
-            return background(self.scene, ray.direction);
+            let seen = sky::radiance(&self.scene.background, ray.direction);
+            let sampled = self.scene.background.panorama().zip(density);
+            return sampled.map_or(seen, |(panorama, density)| {
+                share(density, self.share_of_sky() * sky::density(panorama, ray.direction)) * seen
+            });
         };
         let left = self.left_after(hit.distance, inside);
         let importance = importance * left;
@@ -58,14 +62,14 @@ impl Path<'_> {
         let material = kind_of(material);
         let mut emitted = material.emission();
         if let Some(density) = density.filter(|_| emitted != DVec3::ZERO) {
-            emitted *= share(density, self.lamps.density(&ray, &hit, emitted));
+            emitted *= share(density, (1.0 - self.share_of_sky()) * self.lamps.density(&ray, &hit, emitted));
         }
         if bounce == self.limits.max_bounces {
             return left * emitted;
         }
         let min_distance = MIN_DISTANCE * surface.magnitude;
-        let from_lamp = self.light_of_lamp(material, &surface, &ray, min_distance, bounce, inside);
-        let shown = left * (emitted + from_lamp);
+        let direct = self.direct_light(material, &surface, &ray, min_distance, bounce, inside);
+        let shown = left * (emitted + direct);
         let [first, second, third, chance] = (self.values)(bounce, Use::Direction);
         let Some(Scatter { direction, weight, density }) =
             material.sample(&surface, -ray.direction, [first, second, third])
@@ -84,8 +88,33 @@ impl Path<'_> {
         shown + left * weight * self.radiance(further, min_distance, importance, bounce + 1, inside, density)
     }
 
-    /// The light of a lamp that the surface scatters back along the ray.
-    fn light_of_lamp(
+    /// The share of light samples that go to the sky.
+    fn share_of_sky(&self) -> f64 {
+        match (self.scene.background.panorama(), self.lamps.is_empty()) {
+            (None, _) => 0.0,
+            (Some(_), true) => 1.0,
+            (Some(_), false) => 0.5,
+        }
+    }
+
+    /// A direction from a point in which the sky or a lamp can be seen.
+    fn sample_light(&self, from: DVec3, time: f64, xi: [f64; 4]) -> Option<LampSample> {
+        let of_sky = self.share_of_sky();
+        match self.scene.background.panorama() {
+            Some(panorama) if xi[3] < of_sky => {
+                let (direction, density) = sky::sample(panorama, [xi[1], xi[2]]);
+                let radiance = sky::radiance(&self.scene.background, direction);
+                Some(LampSample { direction, distance: f64::INFINITY, radiance, density: of_sky * density })
+            }
+            _ => {
+                let lamp = self.lamps.sample(from, time, xi)?;
+                Some(LampSample { density: (1.0 - of_sky) * lamp.density, ..lamp })
+            }
+        }
+    }
+
+    /// The light of a lamp or of the sky that the surface scatters back along the ray.
+    fn direct_light(
         &self,
         material: &dyn Kind,
         surface: &Surface,
@@ -95,7 +124,7 @@ impl Path<'_> {
         inside: &[u32],
     ) -> DVec3 {
         let values = || (self.values)(bounce, Use::Light);
-        let Some(lamp) = self.lamps.sample(surface.position, ray.time, values()) else {
+        let Some(lamp) = self.sample_light(surface.position, ray.time, values()) else {
             return DVec3::ZERO;
         };
         let in_front =

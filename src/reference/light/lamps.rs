@@ -47,6 +47,10 @@ impl<'a> Lamps<'a> {
         Self { lamps: scene.shapes.iter().filter_map(lamp).collect() }
     }
 
+    pub(in crate::reference) fn is_empty(&self) -> bool {
+        self.lamps.is_empty()
+    }
+
     fn power(&self) -> f64 {
         self.lamps.last().map_or(0.0, |(.., power)| *power)
     }

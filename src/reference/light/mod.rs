@@ -4,6 +4,7 @@ mod background;
 mod directional;
 pub(super) mod lamps;
 mod point;
+pub(super) mod sky;
 
 use crate::scene::{LightKind, Scene};
 use glam::DVec3;
@@ -18,5 +19,5 @@ pub(super) fn arriving(light: &LightKind, from: DVec3) -> (DVec3, f64) {
 
 /// The radiance along a ray that has this direction and meets no surface.
 pub(super) fn background(scene: &Scene, direction: DVec3) -> DVec3 {
-    background::radiance(&scene.background, direction)
+    sky::radiance(&scene.background, direction)
 }

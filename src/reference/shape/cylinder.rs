@@ -28,11 +28,9 @@ pub(super) fn crossing(cylinder: &Cylinder, ray: Ray, least: f64) -> Option<Cros
     Some(Crossing::flat(distance, normal, uv))
 }
 
-/// The first value goes around the axis and the second along it. Each quarter of the first makes a quarter of the circle,
-/// which the device goes through backwards.
+/// The first value goes around the axis and the second along it.
 pub(super) fn point(of: &Cylinder, [turn, height]: [f64; 2]) -> (DVec3, DVec3) {
-    let (quarter, within) = ((4.0 * turn).floor(), (4.0 * turn).fract());
-    let angle = TAU * (3.0 / 8.0 + 0.25 * (quarter - within));
-    let normal = around(of.axis(), DVec3::new(angle.cos(), 0.0, angle.sin()));
+    let (sine, cosine) = (TAU * turn).sin_cos();
+    let normal = around(of.axis(), DVec3::new(cosine, 0.0, sine));
     (of.start + height * (of.end - of.start) + f64::from(of.radius) * normal, normal)
 }

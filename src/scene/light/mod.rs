@@ -3,10 +3,12 @@
 
 mod background;
 mod directional;
+mod panorama;
 mod point;
 
-pub use background::Background;
+pub use background::{Background, Gradient};
 pub(super) use background::{BackgroundTable, background};
+pub use panorama::{Chances, Panorama};
 
 use super::toml::error::ParseError;
 use glam::Vec3;

@@ -4,8 +4,8 @@ use super::{Stage, Staged};
 use crate::error::Result;
 use crate::scene::mesh::{Mesh, Placement};
 use crate::scene::{
-    Aperture, Background, Camera, CameraModel, Checker, DEFAULT_SHUTTER, DirectionalLight, Hole, Integrator,
-    Lens, Light, LightKind, Material, Matte, Plane, Scene, Sensor, Shaded, Triangle, View,
+    Aperture, Background, Camera, CameraModel, Checker, DEFAULT_SHUTTER, DirectionalLight, Gradient, Hole,
+    Integrator, Lens, Light, LightKind, Material, Matte, Plane, Scene, Sensor, Shaded, Triangle, View,
 };
 use glam::{DVec3, Vec3};
 use std::ops::RangeInclusive;
@@ -160,7 +160,7 @@ pub(super) fn again(scene: &Scene, staged: &Staged, stage: &Stage) -> Result<Sce
 }
 
 fn background(stage: &Stage) -> Background {
-    Background { horizon: stage.horizon.as_vec3(), zenith: stage.sky.as_vec3() }
+    Gradient { horizon: stage.horizon.as_vec3(), zenith: stage.sky.as_vec3() }.into()
 }
 
 /// The key light and the fill light.

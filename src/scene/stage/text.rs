@@ -14,6 +14,7 @@ pub(in crate::scene) fn text(scene: &Scene, staged: &Staged) -> Result<String> {
     let Staged { mesh, stage } = staged;
     let ground = Ground::new(mesh, stage)?;
     let camera = &scene.camera;
+    let sky = scene.background.gradient();
     let mut text = format!(
         "size = [{}, {}]\nmax_bounces = {}\n\n[camera]\neye = {}\nlook_at = {}\nvfov_degrees = {:?}\n\
          metres_per_unit = {:?}\nlens_diameter = {:?}\nfocal_distance = {:?}\n\n\
@@ -27,8 +28,8 @@ pub(in crate::scene) fn text(scene: &Scene, staged: &Staged) -> Result<String> {
         camera.metres_per_unit,
         scene.lens.diameter,
         scene.lens.focal_distance,
-        numbers(scene.background.horizon),
-        numbers(scene.background.zenith),
+        numbers(sky.horizon),
+        numbers(sky.zenith),
         numbers(AMBIENT),
     );
     for Light { kind, radiance, shadows } in &scene.lights {

@@ -184,7 +184,8 @@ fn value_of(table: Option<&str>, key: &str) -> String {
         (_, "vertices") => "three corners, [[x, y, z], [x, y, z], [x, y, z]]",
         (
             _,
-            "integrator" | "material" | "file" | "preset" | "sensor" | "model" | "overlay" | "aperture_image",
+            "integrator" | "material" | "file" | "image" | "preset" | "sensor" | "model" | "overlay"
+            | "aperture_image",
         ) => "a name in quotes, such as \"name\"",
         (_, "tolerance") => "a text like \"0.03 mm\", or a number of pixels",
         (_, "shadows" | "upright" | "focus_breathing" | "exposure_lock") => "true or false, without quotes",

@@ -112,7 +112,7 @@ impl SceneFile {
         let Shot { camera, model, lens, hole, aperture, shutter, iso } =
             Shot::new(&self.camera, size, folder)?;
         let view = View { iso, ..view(self.view.as_ref())? };
-        let background = background(self.background.as_ref())?;
+        let background = background(self.background.as_ref(), folder)?;
         let ambient = self.ambient.as_ref().map_or(Vec3::ZERO, LightColor::radiance);
         let integrator = self.integrator.as_ref();
         let integrator = integrator.map(|name| named(&Integrator::NAMES, name, "integrator")).transpose()?;
@@ -124,7 +124,7 @@ impl SceneFile {
         let mut scene = Scene {
             name: name.to_owned(),
             source: PathBuf::new(),
-            files: Vec::new(),
+            files: background.panorama().map(|sky| sky.image.file.clone()).into_iter().collect(),
             camera,
             model,
             lens,
