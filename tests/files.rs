@@ -207,6 +207,8 @@ fn no_file_is_taken_for_another() {
     let scene = "[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\nvfov_degrees = 60\nlens_diameter = 0.1\n\
                  focal_distance = 5\naperture_image = \"mask.png\"\n[[mesh]]\nfile = \"own.obj\"\n";
     fs::write(folder.join("own.toml"), scene).expect("a scene");
+    let sky = scene.replace("aperture_image = \"mask.png\"", "[background]\nimage = \"mask.png\"");
+    fs::write(folder.join("sky.toml"), format!("integrator = \"path\"\n{sky}")).expect("a scene");
     symlink("a.png", folder.join("link.png")).expect("a link");
     symlink(".", folder.join("way")).expect("a link");
     symlink("own.obj", folder.join("mesh.png")).expect("a link");
@@ -235,6 +237,7 @@ fn no_file_is_taken_for_another() {
         (&own, &["-o", "a.png", "--stats", "deep/../own.obj"]),
         (&own, &["-o", "a.png", "--stats", "own.mtl"]),
         (&own, &["-o", "mask.png"]),
+        (&vec!["render", "sky.toml", "-q", "-s", "8x6", "-n", "1"], &["-o", "mask.png"]),
         (&own, &["-o", "mesh.png"]),
         (&own, &["-o", "hard.png"]),
         (&own, &["-o", "colours.exr"]),

@@ -366,6 +366,16 @@ fn a_saved_mesh_is_found_from_anywhere() {
     let text = |name: &str| std::fs::read_to_string(folder.join(name)).expect("text");
     assert!(text("here.toml").contains("file = \"some.obj\""), "{}", text("here.toml"));
     assert_eq!(text("here.toml"), text("again.toml"));
+
+    let sky = "integrator = \"path\"\n[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, -1]\nvfov_degrees = 40\nlens_diameter = 0\n\
+               focal_distance = 1\n[background]\nimage = \"sky.png\"\n";
+    std::fs::write(folder.join("sky.toml"), sky).expect("a scene");
+    let pixel = image::ImageBuffer::from_pixel(1, 1, image::Luma([9_u8]));
+    pixel.save(folder.join("sky.png")).expect("an image");
+    save(&["sky.toml", "-o", "deep/sky.toml"]);
+    save(&["deep/sky.toml", "-o", "back.toml"]);
+    assert_eq!(text("back.toml"), sky);
+
     let of = |name: &str| decode_png(&render(folder, &[&[name], &small[..]].concat(), "a.png")).1;
     let mesh =
         decode_png(&render(folder, &[&["some.obj", "--f-number", "1.4"], &small[..]].concat(), "a.png")).1;

@@ -31,7 +31,11 @@ fn twins() -> Vec<Twin> {
         twin!("Material", Material, [color, ka, kd, ks, exponent, kind, roughness, index]),
         twin!("Lamp", Lamp, [shape, radiance, end, velocity]),
         twin!("Light", Light, [radiance, kind, position_or_direction]),
-        twin!("Environment", Environment, [horizon, zenith, ambient, bounding_radius]),
+        twin!(
+            "Environment",
+            Environment,
+            [horizon, zenith, ambient, bounding_radius, panorama_size, panorama_scale, panorama_turns]
+        ),
         twin!(
             "SceneCounts",
             SceneCounts,

@@ -55,13 +55,16 @@ impl Settings {
         }
         match document.get_mut("mesh") {
             Some(Item::ArrayOfTables(meshes)) => {
-                meshes.iter_mut().try_for_each(|mesh| files.move_mesh(mesh))?;
+                meshes.iter_mut().try_for_each(|mesh| files.move_file(mesh, "file"))?;
             }
             Some(Item::Value(toml_edit::Value::Array(meshes))) => {
                 let mut meshes = meshes.iter_mut().filter_map(toml_edit::Value::as_inline_table_mut);
-                meshes.try_for_each(|mesh| files.move_mesh(mesh))?;
+                meshes.try_for_each(|mesh| files.move_file(mesh, "file"))?;
             }
             _ => {}
+        }
+        if let Some(background) = document.get_mut("background").and_then(Item::as_table_like_mut) {
+            files.move_file(background, "image")?;
         }
         Ok(document.to_string())
     }
@@ -160,10 +163,10 @@ struct Files {
 }
 
 impl Files {
-    /// Changes the path of a mesh, so that the new scene file finds it.
-    fn move_mesh(&self, mesh: &mut dyn TableLike) -> Result<()> {
-        if let Some(file) = mesh.get("file").and_then(Item::as_str).map(|file| self.from.join(file)) {
-            mesh.insert("file", value(self.seen(&file)?));
+    /// Changes the path that a table has under this key, so that the new scene file finds it.
+    fn move_file(&self, table: &mut dyn TableLike, key: &str) -> Result<()> {
+        if let Some(file) = table.get(key).and_then(Item::as_str).map(|file| self.from.join(file)) {
+            table.insert(key, value(self.seen(&file)?));
         }
         Ok(())
     }
