@@ -13,7 +13,7 @@ use thinlens::reference::Reference;
 use thinlens::reference::tone::srgb;
 use thinlens::renderer::Pace;
 use thinlens::scene::Overlay;
-use thinlens::scene::{Background, SceneRef};
+use thinlens::scene::{Gradient, SceneRef};
 use thinlens::settings::Settings;
 
 /// Pixels may stop at multiples of 16 samples, from 32 on.
@@ -104,7 +104,7 @@ fn pixels_stop_where_their_samples_say() {
         let mut dark = plain_scene_of(EVERYTHING);
         dark.lights.iter_mut().for_each(|light| light.radiance *= 0.02);
         dark.ambient *= 0.02;
-        dark.background = Background { horizon: 0.01 * Vec3::ONE, zenith: 0.02 * Vec3::ONE };
+        dark.background = Gradient { horizon: 0.01 * Vec3::ONE, zenith: 0.02 * Vec3::ONE }.into();
         let mut dim = adaptive("version-4", 0.01);
         dim.estimator.camera = dark.camera;
         dim.estimator.lens = dark.lens;

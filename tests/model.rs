@@ -7,7 +7,7 @@ use common::{Gpu, mesh, run};
 use exr::prelude::{FlatSamples, read_first_flat_layer_from_file};
 use glam::{DVec3, Vec3};
 use std::path::Path;
-use thinlens::scene::{self, LightKind, ModelMaterial, Plane, SceneRef, Stage, Triangle, UpAxis};
+use thinlens::scene::{self, Gradient, LightKind, ModelMaterial, Plane, SceneRef, Stage, Triangle, UpAxis};
 use thinlens::settings::{Settings, list};
 
 /// A slanted tip on a flat foot: its height is along y, and no turn maps it to itself.
@@ -146,7 +146,7 @@ fn colours_and_lights_change_without_the_shapes() {
     });
     assert!(shares);
     let scene = &settings.estimator.scene;
-    assert_eq!((scene.background.zenith, scene.background.horizon), (blue.as_vec3(), Vec3::ONE));
+    assert_eq!(scene.background, Gradient { horizon: Vec3::ONE, zenith: blue.as_vec3() }.into());
     assert!(matches!(scene.lights[0].kind, LightKind::Directional(light) if light.direction == Vec3::X));
     assert_eq!(scene.lights[0].radiance, 2.0 * plain.estimator.scene.lights[0].radiance);
     assert_eq!(scene.lights[1], plain.estimator.scene.lights[1]);

@@ -7,7 +7,7 @@ use ash::vk;
 
 /// How many resources of each kind a shader binds, at most.
 pub const NEEDED: [(ResourceKind, u32); 4] = [
-    (ResourceKind::Buffer, 6),
+    (ResourceKind::Buffer, 7),
     (ResourceKind::Uniform, 1),
     (ResourceKind::Image, 4),
     (ResourceKind::Texels, 5),

@@ -29,12 +29,20 @@ pub struct Gradient {
     pub zenith: Vec3,
 }
 
+impl Gradient {
+    /// Black everywhere.
+    pub const BLACK: Self = Self { horizon: Vec3::ZERO, zenith: Vec3::ZERO };
+}
+
 impl Background {
+    /// A black background.
+    pub const BLACK: Self = Self::Gradient(Gradient::BLACK);
+
     /// The colours of a sky without an image. They are black for an image.
     pub fn gradient(&self) -> Gradient {
         match self {
             Self::Gradient(gradient) => *gradient,
-            Self::Panorama(_) => Gradient { horizon: Vec3::ZERO, zenith: Vec3::ZERO },
+            Self::Panorama(_) => Gradient::BLACK,
         }
     }
 
@@ -85,7 +93,7 @@ pub(in crate::scene) fn background(
     folder: &Path,
 ) -> Result<Background, ParseError> {
     let Some(span) = table else {
-        return Ok(Gradient { horizon: Vec3::ZERO, zenith: Vec3::ZERO }.into());
+        return Ok(Background::BLACK);
     };
     let table = span.get_ref();
     match (&table.image, &table.color, &table.horizon, &table.zenith) {
