@@ -1,5 +1,5 @@
 //! Against a renderer of other authors: Mitsuba 3 with the same lens, spheres of matte, glass and mirror,
-//! checkered plane, directional light, lamp and sky. `tests/mitsuba` has the scenes, Mitsuba's pictures of them, and the script
+//! checkered plane, directional light, lamp, and skies of one colour and of an image. `tests/mitsuba` has the scenes, Mitsuba's pictures of them, and the script
 //! that makes these; the test needs no Mitsuba.
 
 mod common;
@@ -84,8 +84,10 @@ fn mitsuba_renders_the_same_pictures() {
     );
 }
 
-/// Likewise for light that is scattered up to eight times, by glass, a mirror and matte surfaces, from a lamp and the sky.
+/// Likewise for light that is scattered up to eight times, by glass, a mirror and matte surfaces, from a lamp and the sky, or
+/// from a sky that is an image.
 #[test]
 fn mitsuba_follows_the_same_paths() {
     prove(|gpu| compare(gpu, &["glass"], 1024), &["glass_of_one_polarization", "shadows_of_lamps_forgotten"]);
+    prove(|gpu| compare(gpu, &["sky"], 1024), &["sky_without_blending", "sky_turned_the_other_way"]);
 }

@@ -2,14 +2,16 @@
 
     pip install mitsuba==3.9.1 && python3 tests/mitsuba/render.py
 
-writes NAME.exr for each NAME.toml: linear R, G, B, the mean of RUNS independent pictures, and
+writes NAME.exr for each NAME.toml, and panorama.exr, an image of a sky that a scene shows: linear R, G, B, the mean of RUNS independent pictures, and
 error.R, error.G, error.B, the standard error of that mean; RUNS itself is the attribute "runs".
 Needs Python 3.11 for its TOML parser, and takes about a minute on two cores.
 
 The mapping. Mitsuba's sensor `thinlens` has a focal plane, not a sphere, and takes the radius. A matte surface of
 kd = 1 and ka = 0 is `diffuse`; a directional light of some radiance is `directional` of that
 irradiance; a clear body of smooth glass is `dielectric`, and a lamp has an `area` emitter. The plane is a rectangle that reaches beyond the picture. Its checker is shifted by
-1.87e-4 as this program shifts it, and that shift puts the plane itself into the odd layer of cells.
+1.87e-4 as this program shifts it, and that shift puts the plane itself into the odd layer of cells. The image of a sky is
+an `envmap`, whose middle lies in the direction +z, and whose first and last rows lie at the poles: so it gets a row between each
+two rows of the image, and one at each pole.
 """
 
 import pathlib
@@ -23,6 +25,7 @@ RUNS = 64
 SAMPLES = 1024
 HALF_EDGE = 48.0
 SHIFT = 1.87e-4
+FOLDER = pathlib.Path(__file__).parent
 
 
 def integrator(scene):
@@ -77,6 +80,40 @@ def material_of(scene, name):
     }
 
 
+def write_panorama():
+    """A sky of 32 x 16 texels: a gradient, a brighter side, and a sun of two texels."""
+    width, height = 32, 16
+    values = []
+    for y in range(height):
+        for x in range(width):
+            sun = 1 if y == 4 and x in (20, 21) else 0
+            side = 0.2 + 0.4 * x / width
+            up = max(1 - 2 * y / height, 0)
+            values += [side + 9 * sun, 0.3 + 0.2 * up + 8 * sun, 0.3 + 0.5 * up + 6 * sun]
+    tensor = mitsuba.TensorXf(values, (height, width, 3))
+    mitsuba.Bitmap(tensor).write(str(FOLDER / "panorama.exr"))
+
+
+def sky(background):
+    if "image" not in background:
+        return {"type": "constant", "radiance": rgb(background["color"])}
+    bitmap = mitsuba.Bitmap(str(FOLDER / background["image"]))
+    width, height = bitmap.size()
+    values = list(mitsuba.TensorXf(bitmap).array)
+    rows = [values[3 * width * y : 3 * width * (y + 1)] for y in range(height)]
+    # Half of a turn puts the middle of the image into the direction -z.
+    rows = [row[3 * width // 2 :] + row[: 3 * width // 2] for row in rows]
+    between = [[(a + b) / 2 for a, b in zip(*pair)] for pair in zip(rows, rows[1:])]
+    woven = [rows[0]] + [row for pair in zip(rows, between) for row in pair] + [rows[-1], rows[-1]]
+    flat = [value for row in woven for value in row]
+    return {
+        "type": "envmap",
+        "bitmap": mitsuba.Bitmap(mitsuba.TensorXf(flat, (2 * height + 1, width, 3))),
+        "scale": background.get("radiance", 1.0),
+        "to_world": mitsuba.ScalarTransform4f().rotate([0, 1, 0], background.get("turn_degrees", 0)),
+    }
+
+
 def translate(scene):
     transform = mitsuba.ScalarTransform4f()
     camera, (width, height) = scene["camera"], scene["size"]
@@ -109,7 +146,7 @@ def translate(scene):
             "irradiance": rgb([light["radiance"] * x for x in light.get("color", [1, 1, 1])]),
         }
     if "background" in scene:
-        result["sky"] = {"type": "constant", "radiance": rgb(scene["background"]["color"])}
+        result["sky"] = sky(scene["background"])
     for plane in scene.get("plane", []):
         assert plane["point"] == [0, 0, 0] and plane["normal"] == [0, 1, 0]
         result["plane"] = {
@@ -128,7 +165,8 @@ def translate(scene):
 
 
 def main():
-    for path in sorted(pathlib.Path(__file__).parent.glob("*.toml")):
+    write_panorama()
+    for path in sorted(FOLDER.glob("*.toml")):
         scene = tomllib.loads(path.read_text())
         width, height = scene["size"]
         loaded = translate(scene)
