@@ -8,7 +8,9 @@ use std::sync::Arc;
 use thinlens::error::Result;
 use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush, lens_constants};
 use thinlens::interface::binding;
-use thinlens::passes::{Accumulate, AdaptiveBuffers, ApertureBuffers, BlueNoiseTile, SceneBuffers, Trace};
+use thinlens::passes::{
+    Accumulate, AdaptiveBuffers, ApertureBuffers, BlueNoiseTile, FacetAlbedo, SceneBuffers, Trace,
+};
 use thinlens::renderer::schedule::Batch;
 use thinlens::scene::{self, SceneRef};
 use thinlens::settings::Settings;
@@ -48,8 +50,9 @@ fn measure(device: &Arc<Device>, name: &str) -> Result<()> {
         Arc::new(Buffer::new(device, "counters", size_of::<Counters>() as u64, Residence::Device)?);
     let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene, estimator.shutter))?;
     let tile = BlueNoiseTile::new(device)?;
+    let albedo = FacetAlbedo::new(device)?;
     let (trace, accumulate) = (
-        Trace::new(device, Trace::SHADERS[0], &constants, &scene, &tile)?,
+        Trace::new(device, Trace::SHADERS[0], &constants, &scene, &tile, &albedo)?,
         Accumulate::new(device, Accumulate::SHADER, &constants, &tile)?,
     );
     let aperture = ApertureBuffers::new(device, &[])?;

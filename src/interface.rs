@@ -65,6 +65,8 @@ pub mod binding {
         APERTURE_SUMS,
         /// The tile of numbers that arranges the blue noise.
         BLUE_NOISE_TILE,
+        /// The table of what rough surfaces reflect.
+        FACET_ALBEDO,
         /// The inputs of the shaders in `tests/probes`.
         PROBE_INPUTS,
         /// The outputs of the shaders in `tests/probes`.
@@ -204,6 +206,10 @@ pub mod material {
         METAL,
         /// A clear body, smooth or frosted.
         GLASS,
+        /// A clear coat over a matte base.
+        PLASTIC,
+        /// The material of models: a mixture of a metal and of a coat over a matte base.
+        STANDARD,
     }
 }
 

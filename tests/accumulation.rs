@@ -9,7 +9,7 @@ use common::{Gpu, bits, film, probe, prove, render, scene_of, settings_of, small
 use glam::DVec3;
 use std::sync::Arc;
 use thinlens::gpu_types::{Camera, Counters, SceneData, TracePush, lens_constants};
-use thinlens::passes::{AdaptiveBuffers, ApertureBuffers, BlueNoiseTile, SceneBuffers, Trace};
+use thinlens::passes::{AdaptiveBuffers, ApertureBuffers, BlueNoiseTile, FacetAlbedo, SceneBuffers, Trace};
 use thinlens::reference::{self, sampler};
 use thinlens::renderer::schedule::Batch;
 use thinlens::settings::Settings;
@@ -37,7 +37,8 @@ fn record(gpu: &Gpu, settings: &Settings) -> Result<Vec<Vec<[f32; 4]>>> {
     let device = gpu.device();
     let scene = SceneBuffers::new(device, &SceneData::new(&estimator.scene, estimator.shutter))?;
     let tile = BlueNoiseTile::new(device)?;
-    let trace = Trace::new(device, gpu.shader("trace"), &lens_constants(estimator), &scene, &tile)?;
+    let albedo = FacetAlbedo::new(device)?;
+    let trace = Trace::new(device, gpu.shader("trace"), &lens_constants(estimator), &scene, &tile, &albedo)?;
     let counters = Buffer::new(device, "counters", size_of::<Counters>() as u64, Residence::Device)?;
     let batch = Arc::new(Image::rgba32f(device, "batch", estimator.size)?);
     let read = Buffer::new(device, "samples", batch.byte_len(), Residence::Host)?;

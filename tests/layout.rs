@@ -28,7 +28,7 @@ type Twin = (&'static str, Vec<(&'static str, usize)>, usize);
 fn twins() -> Vec<Twin> {
     vec![
         twin!("Texture", Texture, [color, kind, other_color, inverse_size, phase]),
-        twin!("Material", Material, [color, ka, kd, ks, exponent, kind, roughness, index]),
+        twin!("Material", Material, [color, ka, kd, ks, exponent, kind, roughness, index, metallic]),
         twin!("Lamp", Lamp, [shape, radiance, end, velocity]),
         twin!("Light", Light, [radiance, kind, position_or_direction]),
         twin!(

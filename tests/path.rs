@@ -90,7 +90,11 @@ fn what_an_integrator_cannot_render_is_refused() {
             "use matte or mirror without them",
         ),
         (Integrator::Path, "[matte.m]\nkd = 1.5\ncolor = [0.5, 0.8, 0.5]\n".into(), "at most 1"),
+        (Integrator::Path, "[plastic.m]\ncolor = [0.5, 1.1, 0.5]\n".into(), "at most 1"),
+        (Integrator::Path, "[standard.m]\ncolor = [0.5, 0.5, 1.1]\n".into(), "at most 1"),
         (Integrator::Whitted, "[glass.m]\n".into(), "needs the integrator path"),
+        (Integrator::Whitted, "[plastic.m]\ncolor = [1, 1, 1]\n".into(), "needs the integrator path"),
+        (Integrator::Whitted, "[standard.m]\ncolor = [1, 1, 1]\n".into(), "needs the integrator path"),
         (Integrator::Whitted, "[metal.m]\ncolor = [1, 1, 1]\n".into(), "needs the integrator path"),
     ] {
         let mut settings = Settings::of_scene(scene_of(&format!("{camera}{tables}{ball}")));
@@ -182,7 +186,12 @@ fn the_light_of_a_lamp_has_its_closed_form() {
 #[test]
 fn the_strategies_share_the_light() {
     let gpu = Gpu::new();
-    for material in ["[matte.m]\ncolor = [1, 1, 1]\n", "[metal.m]\ncolor = [1, 1, 1]\nroughness = 0.2\n"] {
+    let rough = "color = [1, 1, 1]\nroughness = 0.2\n";
+    for material in [
+        "[matte.m]\ncolor = [1, 1, 1]\n".to_owned(),
+        format!("[metal.m]\n{rough}"),
+        format!("[plastic.m]\n{rough}"),
+    ] {
         let scene = format!(
             "integrator = \"path\"\nmax_bounces = 1\n[camera]\neye = [0, 0, 3]\nlook_at = [0, 0, 0]\nvfov_degrees = 10\n\
              lens_diameter = 0\nfocal_distance = 3\n[emissive.lamp]\nradiance = 1\n{material}\
@@ -191,8 +200,7 @@ fn the_strategies_share_the_light() {
         );
         let film = film(&gpu, &settings_of(&scene, [16, 16], 1024));
         let mean = film.iter().map(|texel| f64::from(texel[0])).sum::<f64>() / film.len() as f64;
-        // Facets of this roughness lose little light to each other.
-        assert!((0.995..1.003).contains(&mean), "{material}: {mean}");
+        assert!((0.997..1.003).contains(&mean), "{material}: {mean}");
     }
 }
 

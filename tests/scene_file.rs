@@ -3,8 +3,8 @@
 use glam::Vec3;
 use thinlens::error::Error;
 use thinlens::scene::{
-    self, BUILTINS, Box, CameraModel, Checker, LightKind, Matte, Overlay, Phong, Plane, SceneRef, Sphere,
-    Texture, Tolerance, Triangle, View,
+    self, BUILTINS, Box, CameraModel, Checker, LightKind, Matte, Metal, Overlay, Phong, Plane, SceneRef,
+    Sphere, Texture, Tolerance, Triangle, View,
 };
 use thinlens::settings::{Access, Settings, Unit, list};
 
@@ -360,6 +360,38 @@ fn scenes_are_found_by_name() {
     let error = scene::load("nowhere/scene.toml").expect_err("no such file");
     assert_eq!(error.exit_code(), 1);
     assert!(error.to_string().contains("nowhere/scene.toml"), "{error}");
+}
+
+/// Catches a measured metal whose numbers are not those that are documented, and one that is not documented.
+#[test]
+fn measured_metals_have_the_documented_colors() {
+    let page =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/scenes.md")).expect("the page");
+    let mut known = Vec::new();
+    for line in page.lines() {
+        let Some((name, rest)) = line.strip_prefix("| `\"").and_then(|rest| rest.split_once("\"` | ")) else {
+            continue;
+        };
+        let numbers: Vec<f32> =
+            rest.trim_end_matches(" |").split(", ").map(|number| number.parse().expect("a number")).collect();
+        let text = VALID.replacen(
+            "[matte.red]\nka = 0.5\nkd = 0.5\ncolor = [1, 0, 0]",
+            &format!("[metal.red]\ncolor = \"{name}\""),
+            1,
+        );
+        let scene = load(&text).expect("a metal");
+        let red = &scene.materials[scene.of_kind::<Sphere>().next().expect("a sphere").1.material as usize];
+        let color = Texture::constant(Vec3::from_slice(&numbers));
+        assert_eq!(*red, Metal { color, roughness: 0.0 }.into());
+        known.push(name);
+    }
+    let other = VALID.replacen(
+        "[matte.red]\nka = 0.5\nkd = 0.5\ncolor = [1, 0, 0]",
+        "[metal.red]\ncolor = \"tin\"",
+        1,
+    );
+    let message = error_at("color = \"tin\"", &other);
+    assert!(message.ends_with(&known.join(", ")), "{message}");
 }
 
 /// Catches documentation of keys that are no longer read.

@@ -5,7 +5,9 @@ mod common;
 use common::{Gpu, run, small};
 use std::sync::Arc;
 use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush, lens_constants};
-use thinlens::passes::{Accumulate, AdaptiveBuffers, ApertureBuffers, BlueNoiseTile, SceneBuffers, Trace};
+use thinlens::passes::{
+    Accumulate, AdaptiveBuffers, ApertureBuffers, BlueNoiseTile, FacetAlbedo, SceneBuffers, Trace,
+};
 use thinlens::renderer::Renderer;
 use thinlens::renderer::schedule::Batch;
 use thinlens::vulkan::{Buffer, Commands, Image, Instance, Residence};
@@ -36,8 +38,9 @@ fn record_two_passes(gpu: &Gpu, barrier: bool) {
     let scene =
         SceneBuffers::new(device, &SceneData::new(&estimator.scene, estimator.shutter)).expect("a scene");
     let tile = BlueNoiseTile::new(device).expect("a tile");
+    let albedo = FacetAlbedo::new(device).expect("a table");
     let (trace, accumulate) = (
-        Trace::new(device, Trace::SHADERS[0], &constants, &scene, &tile).expect("trace"),
+        Trace::new(device, Trace::SHADERS[0], &constants, &scene, &tile, &albedo).expect("trace"),
         Accumulate::new(device, Accumulate::SHADER, &constants, &tile).expect("accumulate"),
     );
     let aperture = ApertureBuffers::new(device, &[]).expect("an aperture");

@@ -19,17 +19,22 @@ vec3 matte_f(
     return material.kd * INVERSE_PI * color;
 }
 
-// The density of the directions is proportional to their cosine: they lie above even points of the unit disc (N. Malley;
+// A local direction whose density is its cosine / pi. Such directions lie above even points of the unit disc (N. Malley;
 // Pharr, Jakob and Humphreys, Physically Based Rendering, "Sampling Functions").
+vec3 cosine_direction(const vec2 xi) {
+    vec2 disk = concentric_disk(xi);
+    float height = sqrt(larger(1.0 - dot(disk, disk), 0.0));
+    return vec3(disk, height);
+}
+
 Scatter matte_sample(
     const Material material, const vec3 color, const SurfacePoint at, const vec3 to_viewer, const vec3 xi
 ) {
-    vec2 disk = concentric_disk(xi.xy);
-    float height = sqrt(larger(1.0 - dot(disk, disk), 0.0));
-    vec3 direction = around_normal(at.shading_normal, vec3(disk, height));
+    vec3 other = cosine_direction(xi.xy);
+    vec3 direction = around_normal(at.shading_normal, other);
     // Where the normals of a mesh are smoothed, a direction may lead below the surface. No light comes from there.
     vec3 weight = dot(direction, at.normal) > 0.0 ? material.kd * color : vec3(0.0);
-    return Scatter(direction, weight, INVERSE_PI * height);
+    return Scatter(direction, weight, INVERSE_PI * other.z);
 }
 
 Scattered matte_scattered(

@@ -8,14 +8,8 @@
 #define MICROFACET_GLSL
 
 #include "core/sampling.glsl"
+#include "material/albedo.glsl"
 #include "scene/surface.glsl"
-
-// A surface whose roughness is less than this is smooth.
-const float LEAST_ROUGHNESS = 0.03;
-
-bool is_smooth(const float roughness) {
-    return roughness < LEAST_ROUGHNESS;
-}
 
 // The slopes of a rough surface look evenly spaced to the eye if they grow with the square of its roughness: B. Burley,
 // "Physically-Based Shading at Disney", SIGGRAPH Courses 2012.

@@ -12,11 +12,15 @@ vec3 mirror_f(
     return vec3(phong_highlight(material, at, to_light, to_viewer));
 }
 
-Scatter mirror_mirrored(const Material material, const vec3 color, const SurfacePoint at, const vec3 to_viewer) {
+vec3 mirror_direction(const SurfacePoint at, const vec3 to_viewer) {
     vec3 mirrored = reflect(-to_viewer, at.shading_normal);
     // A direction that would enter the surface is mirrored out of the surface again.
     mirrored -= 2.0 * smaller(dot(mirrored, at.normal), 0.0) * at.normal;
-    return Scatter(mirrored, color, 0.0);
+    return mirrored;
+}
+
+Scatter mirror_mirrored(const Material material, const vec3 color, const SurfacePoint at, const vec3 to_viewer) {
+    return Scatter(mirror_direction(at, to_viewer), color, 0.0);
 }
 
 // There is one direction only.

@@ -32,6 +32,7 @@ struct Material {
     uint kind;
     float roughness; // from 0 to 1
     float index; // the refractive index
+    float metallic; // from 0 to 1, the share of metal in a mixture
 };
 
 // A direction from which light comes that is scattered towards the viewer, and the weight of its radiance: of a random

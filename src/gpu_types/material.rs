@@ -18,7 +18,7 @@ pub struct Material {
     pub kind: u32,
     pub roughness: f32,
     pub index: f32,
-    pub pad0: u32,
+    pub metallic: f32,
 }
 
 /// `Texture` of texture/record.glsl.
@@ -64,6 +64,20 @@ impl Material {
                 color: Texture::new(&of.color, origin),
                 roughness: flush_denormal(of.roughness),
                 kind: material::METAL,
+                ..Zeroable::zeroed()
+            },
+            scene::Material::Plastic(of) => Self {
+                color: Texture::new(&of.color, origin),
+                roughness: flush_denormal(of.roughness),
+                index: of.index,
+                kind: material::PLASTIC,
+                ..Zeroable::zeroed()
+            },
+            scene::Material::Standard(of) => Self {
+                color: Texture::new(&of.color, origin),
+                roughness: flush_denormal(of.roughness),
+                metallic: flush_denormal(of.metallic),
+                kind: material::STANDARD,
                 ..Zeroable::zeroed()
             },
             scene::Material::Glass(of) => Self {

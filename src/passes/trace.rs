@@ -1,6 +1,6 @@
 //! Traces a batch of samples for each pixel of a lattice into the tracing image.
 
-use super::{AdaptiveBuffers, ApertureBuffers, BlueNoiseTile, SceneBuffers};
+use super::{AdaptiveBuffers, ApertureBuffers, BlueNoiseTile, FacetAlbedo, SceneBuffers};
 use crate::error::Result;
 use crate::gpu_types::TracePush;
 use crate::interface::binding;
@@ -11,6 +11,8 @@ use std::sync::Arc;
 pub struct Trace {
     pipeline: ComputePipeline,
     tile: BlueNoiseTile,
+    /// Only for an integrator that scatters light from rough surfaces.
+    albedo: Option<FacetAlbedo>,
     /// Whether the integrator samples lamps and the sky.
     samples_light: bool,
 }
@@ -27,11 +29,14 @@ impl Trace {
         estimator: &[(u32, u32)],
         scene: &SceneBuffers,
         tile: &BlueNoiseTile,
+        albedo: &FacetAlbedo,
     ) -> Result<Self> {
         let constants = [scene.constants(), estimator].concat();
         let pipeline = ComputePipeline::new(device, shader, &constants)?;
-        let samples_light = shader.interface().resources.contains_key(&binding::LAMPS);
-        Ok(Self { pipeline, tile: tile.clone(), samples_light })
+        let resources = shader.interface().resources;
+        let samples_light = resources.contains_key(&binding::LAMPS);
+        let albedo = resources.contains_key(&binding::FACET_ALBEDO).then(|| albedo.clone());
+        Ok(Self { pipeline, tile: tile.clone(), albedo, samples_light })
     }
 
     /// The pass traces `scene` through `aperture` into the tracing image `traced`, and adds to `counters`. Once some
@@ -49,6 +54,7 @@ impl Trace {
         if self.samples_light {
             bindings.extend(scene.of_sampled_light());
         }
+        bindings.extend(self.albedo.as_ref().map(FacetAlbedo::binding));
         bindings.extend(aperture.bindings());
         bindings.extend([
             (binding::TRACED_IMAGE, Binding::Image(Arc::clone(traced))),

@@ -7,8 +7,8 @@ use crate::gpu_types::{
     Counters, SceneColors, SceneData, aperture_sums, film_constants, integrator_number, lens_constants,
 };
 use crate::passes::{
-    Accumulate, ApertureBuffers, BlueNoiseTile, Geometry, Pick, Resolve, ResolveKind, SceneBuffers, Select,
-    Shaders, Trace,
+    Accumulate, ApertureBuffers, BlueNoiseTile, FacetAlbedo, Geometry, Pick, Resolve, ResolveKind,
+    SceneBuffers, Select, Shaders, Trace,
 };
 use crate::scene::{ApertureImage, Integrator, Overlay, SceneRef, Stage};
 use crate::settings::{Estimator, Settings};
@@ -20,6 +20,7 @@ pub struct Preparer {
     pub(super) device: Arc<Device>,
     shaders: Shaders,
     tile: BlueNoiseTile,
+    albedo: FacetAlbedo,
     pub(super) counters: Arc<Buffer>,
     pub(super) resolve_without_holes: Arc<Resolve>,
     pub(super) resolve_with_holes: Arc<Resolve>,
@@ -109,6 +110,7 @@ impl Preparer {
         Ok(Self {
             shaders,
             tile: BlueNoiseTile::new(device)?,
+            albedo: FacetAlbedo::new(device)?,
             counters: Arc::new(Buffer::new(device, "counters", size, Residence::Device)?),
             resolve_without_holes: resolve(ResolveKind::WithoutHoles)?,
             resolve_with_holes: resolve(ResolveKind::WithHoles)?,
@@ -152,7 +154,7 @@ impl Preparer {
             let trace = scope.spawn(|| {
                 share_or(same_trace.map(|old| &old.trace), || {
                     let shader = shaders.trace[keys.integrator as usize];
-                    Trace::new(device, shader, &keys.lens, &scene, tile)
+                    Trace::new(device, shader, &keys.lens, &scene, tile, &self.albedo)
                 })
             });
             let pick = scope.spawn(|| {

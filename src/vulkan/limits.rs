@@ -10,7 +10,7 @@ pub const NEEDED: [(ResourceKind, u32); 4] = [
     (ResourceKind::Buffer, 7),
     (ResourceKind::Uniform, 1),
     (ResourceKind::Image, 4),
-    (ResourceKind::Texels, 6),
+    (ResourceKind::Texels, 7),
 ];
 
 /// Lavapipe counts the steps of all loops of an invocation together, and silently leaves every loop after so many. A

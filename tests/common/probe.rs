@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 use std::sync::Arc;
 use thinlens::gpu_types::{SceneData, sampler_constant};
 use thinlens::interface::{binding, constant, scene_in};
-use thinlens::passes::{BlueNoiseTile, SceneBuffers};
+use thinlens::passes::{BlueNoiseTile, FacetAlbedo, SceneBuffers};
 use thinlens::reference::Ray;
 use thinlens::scene::SceneRef;
 use thinlens::settings::Sampler;
@@ -60,11 +60,12 @@ pub fn probe_as<In: Pod, Out: Pod>(
     ]);
     bindings.push((binding::PROBE_INPUTS, Binding::Buffer(input)));
     bindings.push((binding::PROBE_OUTPUTS, Binding::Buffer(Arc::clone(&output))));
-    // Few of the functions need sample values.
-    let tile = BlueNoiseTile::new(device).expect("a tile").binding();
-    if shader.interface().resources.contains_key(&tile.0) {
-        bindings.push(tile);
-    }
+    // Few of the functions need sample values, or rough materials.
+    let tables = [
+        BlueNoiseTile::new(device).expect("a tile").binding(),
+        FacetAlbedo::new(device).expect("a table").binding(),
+    ];
+    bindings.extend(tables.into_iter().filter(|of| shader.interface().resources.contains_key(&of.0)));
     let answers = |constants: &[(u32, u32)]| {
         let pipeline = ComputePipeline::new(device, shader, constants).expect("a pipeline");
         let bindings = BindingSet::new(&pipeline, &bindings).expect("bindings");

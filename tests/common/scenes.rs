@@ -109,6 +109,16 @@ index = 1.6
 roughness = 0.35
 [emissive.lamp]
 radiance = 4
+[plastic.red]
+color = [0.8, 0.2, 0.1]
+roughness = 0.3
+[plastic.billiard]
+color = [0.9, 0.9, 0.7]
+index = 1.7
+[standard.painted]
+color = [0.3, 0.5, 0.9]
+metallic = 0.4
+roughness = 0.5
 [emissive.tube]
 color = [1, 0.3, 0.2]
 radiance = 6
@@ -133,6 +143,18 @@ material = "lamp"
 point = [0, 0, 0]
 normal = [0, 1, 0]
 material = "floor"
+[[sphere]]
+center = [-0.5, 0.25, 1.5]
+radius = 0.25
+material = "red"
+[[sphere]]
+center = [-1.6, 0.25, 1.2]
+radius = 0.25
+material = "billiard"
+[[sphere]]
+center = [0.7, 0.2, 1.8]
+radius = 0.2
+material = "painted"
 [[sphere]]
 center = [-1.1, 0.6, 0.2]
 radius = 0.6

@@ -29,8 +29,31 @@ pub fn student_p(t: f64, degrees_of_freedom: f64) -> f64 {
 pub fn evenness_p(counts: &[u32]) -> f64 {
     let expected = counts.iter().map(|count| f64::from(*count)).sum::<f64>() / counts.len() as f64;
     assert!(expected >= 5.0, "too few for a chi-square test");
-    let chi_square = counts.iter().map(|count| (f64::from(*count) - expected).powi(2) / expected).sum();
-    ChiSquared::new(counts.len() as f64 - 1.0).expect("two counts or more").sf(chi_square)
+    let counts: Vec<f64> = counts.iter().map(|count| f64::from(*count)).collect();
+    fit_p(&counts, &vec![expected; counts.len()])
+}
+
+/// The chance of counts at least that far from what is expected: K. Pearson's chi-square test. Places of which little is
+/// expected count as one.
+pub fn fit_p(counts: &[f64], expected: &[f64]) -> f64 {
+    let (mut chi_square, mut terms) = (0.0, 0.0);
+    let mut add = |count: f64, expected: f64| {
+        chi_square += (count - expected).powi(2) / expected;
+        terms += 1.0;
+    };
+    let mut rest = (0.0, 0.0);
+    for (count, expected) in counts.iter().zip(expected) {
+        if *expected >= 5.0 {
+            add(*count, *expected);
+        } else {
+            rest = (rest.0 + count, rest.1 + expected);
+        }
+    }
+    // So few are expected there that at least one is divided by.
+    if rest != (0.0, 0.0) {
+        add(rest.0, rest.1.max(1.0));
+    }
+    ChiSquared::new(terms - 1.0).expect("two counts or more").sf(chi_square)
 }
 
 /// Mean and variance of a few numbers.

@@ -32,6 +32,7 @@ const TRIED: &[(&str, &[&str])] = &[
     ("aperture", &["aperture"]),
     ("warps", &["disk", "landing"]),
     ("path", &["path"]),
+    ("material", &["furnace", "reversed", "lobes"]),
 ];
 
 /// A mistake to plant: a text that stands once in one file, and what stands there instead.

@@ -1,13 +1,17 @@
 //! Materials, which say what surfaces do with light. Each kind is a file with the name of its shader in
 //! `shaders/material`.
 
+mod albedo;
 mod emissive;
 mod glass;
+mod layers;
 mod matte;
 mod metal;
 mod microfacet;
 mod mirror;
 mod phong;
+mod plastic;
+mod standard;
 
 use super::surface::Surface;
 use crate::scene::Material;
@@ -65,5 +69,7 @@ pub(super) fn kind_of(material: &Material) -> &dyn Kind {
         Material::Emissive(of) => of,
         Material::Metal(of) => of,
         Material::Glass(of) => of,
+        Material::Plastic(of) => of,
+        Material::Standard(of) => of,
     }
 }

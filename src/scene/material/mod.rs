@@ -7,8 +7,10 @@ mod matte;
 mod metal;
 mod mirror;
 mod phong;
+mod plastic;
+mod standard;
 
-use super::Integrator;
+use super::{Integrator, Texture};
 use glam::{DVec3, Vec3};
 
 /// Calls a macro with the list of all kinds. An entry has the name of the kind, its table, and the name of the table in
@@ -24,6 +26,8 @@ macro_rules! material_kinds {
                 (Emissive, EmissiveTable, emissive),
                 (Metal, MetalTable, metal),
                 (Glass, GlassTable, glass),
+                (Plastic, PlasticTable, plastic),
+                (Standard, StandardTable, standard),
             ]
         }
     };
@@ -52,6 +56,13 @@ const NEEDS_PATH: &str = "it needs the integrator path";
 /// Why `path` cannot render a material that adds light.
 const ADDS_LIGHT: &str =
     "it reflects more light than arrives; use a color and a coefficient whose product is at most 1";
+
+/// The answer of [`Kind::refusal`] for a material of the integrator `path` that reflects up to its colour.
+fn refusal_of_color(color: &Texture, integrator: Integrator) -> Option<&'static str> {
+    let adds_light = (color.brightest().max_element() > 1.0).then_some(ADDS_LIGHT);
+    (integrator == Integrator::Whitted).then_some(NEEDS_PATH).or(adds_light)
+}
+
 /// Why `path` cannot render Suffern's highlights.
 const HAS_HIGHLIGHT: &str = "the highlights of ks and exponent belong to the integrator whitted; use matte or mirror \
                              without them";

@@ -96,6 +96,18 @@ fn table(name: &str, material: &Material) -> String {
         Material::Metal(of) => {
             format!("\n[metal.{name}]\ncolor = {}\nroughness = {}\n", color(&of.color), of.roughness)
         }
+        Material::Plastic(of) => format!(
+            "\n[plastic.{name}]\ncolor = {}\nindex = {}\nroughness = {}\n",
+            color(&of.color),
+            of.index,
+            of.roughness
+        ),
+        Material::Standard(of) => format!(
+            "\n[standard.{name}]\ncolor = {}\nmetallic = {}\nroughness = {}\n",
+            color(&of.color),
+            of.metallic,
+            of.roughness
+        ),
         Material::Glass(of) => format!(
             "\n[glass.{name}]\nindex = {}\nroughness = {}\ncolor = {}\ncolor_distance = {}\n",
             of.index,

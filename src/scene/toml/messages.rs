@@ -170,11 +170,15 @@ const THREE_NUMBERS: &str = "three numbers, [x, y, z]";
 const COLOR: &str = "a colour, three numbers [r, g, b]";
 const COLOR_OR_CHECKER: &str = "[r, g, b], or { even = [r, g, b], odd = [r, g, b], size = EDGE }";
 
+const METAL_COLOR: &str =
+    "a name such as \"gold\", [r, g, b], or { even = [r, g, b], odd = [r, g, b], size = EDGE }";
+
 /// The kind of value that a key takes.
 fn value_of(table: Option<&str>, key: &str) -> String {
     let known = match (table, key) {
         (None, "size") => "[width, height], two whole numbers of pixels",
-        (Some("matte" | "phong"), "color") => COLOR_OR_CHECKER,
+        (Some("matte" | "phong" | "plastic" | "standard"), "color") => COLOR_OR_CHECKER,
+        (Some("metal"), "color") => METAL_COLOR,
         (_, "color" | "horizon" | "zenith" | "even" | "odd") => COLOR,
         (
             _,
