@@ -8,6 +8,9 @@
 //!
 //! The nodes are evenly spaced in the square root of the cosine of the direction, and in the roughness. The shaders
 //! interpolate between them. At the end the error of the interpolation is printed.
+//!
+//! A second table has the share of light that leaves the facets of glass after a single reflection or refraction. Its third
+//! axis is that of the refractive index.
 
 use fastrand::Rng;
 use std::f64::consts::PI;
@@ -18,6 +21,10 @@ const ROWS: usize = 32;
 const COLUMNS: usize = 64;
 /// Points of the midpoint rule, along each axis.
 const POINTS: usize = 256;
+/// Nodes along each axis of the table of glass.
+const OF_GLASS: usize = 17;
+/// The indices of glass, beyond the surface relative to this side, are those up to this one, and their inverses.
+const MOST_INDEX: f64 = 4.0;
 
 /// The share for facets that reflect everything, and for facets that reflect `(1 - cos)^5`.
 type Shares = [f64; 2];
@@ -44,6 +51,8 @@ fn main() {
             bytes.extend(means[row].map(rounded).concat());
         }
     }
+    let glass = glass_table();
+    bytes.extend(glass_cells(&glass));
     std::fs::write("shaders/facet_albedo.bin", &bytes).expect("the table is written");
 
     let mut rng = Rng::with_seed(1);
@@ -61,6 +70,73 @@ fn main() {
     }
     let means = sum.map(|sum| sum / PLACES as f64);
     println!("{} bytes; off by {worst:.5?} at most, by {means:.5?} in the mean", bytes.len());
+    let (mut worst, mut sum) = (0.0_f64, 0.0);
+    for _ in 0..PLACES {
+        let [first, second, third] = [rng.f64(), rng.f64(), rng.f64()];
+        let (cosine, roughness) = (0.01 + 0.99 * first, 0.03 + 0.97 * second);
+        let index = (1.0 + 1.5 * third).powi(if rng.bool() { 1 } else { -1 });
+        let error = (glass_interpolated(&glass, [cosine.sqrt(), roughness, place_of_index(index)])
+            - glass_share(cosine, roughness, index))
+        .abs();
+        worst = worst.max(error);
+        sum += error;
+    }
+    println!("glass: off by {worst:.5} at most, by {:.5} in the mean", sum / PLACES as f64);
+}
+
+/// The shares of glass at the nodes: first those of the next index, then of the next roughness, then of the next cosine.
+fn glass_table() -> Vec<f64> {
+    let place = |node: usize| node as f64 / (OF_GLASS - 1) as f64;
+    let share = |node: usize| {
+        let index = index_at(place(node % OF_GLASS));
+        glass_share(place(node / OF_GLASS / OF_GLASS).powi(2), place(node / OF_GLASS % OF_GLASS), index)
+    };
+    (0..OF_GLASS.pow(3)).map(share).collect()
+}
+
+/// A texel for each cell, which has its eight corners.
+fn glass_cells(table: &[f64]) -> Vec<u8> {
+    let cells = OF_GLASS - 1;
+    let corners = |cell: usize| {
+        let first = [cell / cells / cells, cell / cells % cells, cell % cells];
+        (0..8).flat_map(move |corner: usize| rounded(table[node_of_glass(first, corner)]))
+    };
+    (0..cells.pow(3)).flat_map(corners).collect()
+}
+
+/// The node at a corner of a cell.
+fn node_of_glass([cosine, roughness, index]: [usize; 3], corner: usize) -> usize {
+    let along = |at: usize, axis: usize| at + (corner >> axis & 1);
+    (along(cosine, 2) * OF_GLASS + along(roughness, 1)) * OF_GLASS + along(index, 0)
+}
+
+fn glass_interpolated(table: &[f64], place: [f64; 3]) -> f64 {
+    let place = place.map(|place| place * (OF_GLASS - 1) as f64);
+    let cell = place.map(|place| (place as usize).min(OF_GLASS - 2));
+    let weight = |corner: usize, axis: usize| {
+        let across = place[axis] - cell[axis] as f64;
+        if corner >> (2 - axis) & 1 == 1 { across } else { 1.0 - across }
+    };
+    let share = |corner: usize| {
+        let weight: f64 = (0..3).map(|axis| weight(corner, axis)).product();
+        weight * table[node_of_glass(cell, corner)]
+    };
+    (0..8).map(share).sum()
+}
+
+/// The nodes are even in the fourth root of what is reflected at a right angle, with a sign: so they are close to each other
+/// near the index 1, where the share changes fast.
+fn index_at(place: f64) -> f64 {
+    let most = (MOST_INDEX - 1.0) / (MOST_INDEX + 1.0);
+    let side = 2.0 * place - 1.0;
+    let root = most * side * side.abs();
+    (1.0 + root) / (1.0 - root)
+}
+
+fn place_of_index(index: f64) -> f64 {
+    let most = (MOST_INDEX - 1.0) / (MOST_INDEX + 1.0);
+    let root = (index - 1.0) / (index + 1.0) / most;
+    0.5 + 0.5 * root.abs().sqrt().copysign(root)
 }
 
 /// A share in 16 bits.
@@ -98,14 +174,46 @@ fn interpolated(rows: &[Vec<Shares>], cosine: f64, roughness: f64) -> Shares {
     })
 }
 
-/// The shares of light with this cosine, as the mean over the facets that it meets: E. Heitz and E. d'Eon, "Importance
-/// Sampling Microfacet-Based BSDFs using the Distribution of Visible Normals", CGF 33(4), 2014. If the slopes are scaled
-/// by `1 / alpha`, these facets form a cap of the unit sphere: J. Dupuy and A. Benyoub, CGF 42(8), 2023.
+/// The shares of light with this cosine.
 fn shares(cosine: f64, roughness: f64) -> Shares {
-    let alpha = roughness * roughness;
-    if alpha == 0.0 {
+    if roughness == 0.0 {
         return [1.0, (1.0 - cosine).powi(5)];
     }
+    mean_over_facets(cosine, roughness, |cosine, alpha, [between, facet]| {
+        let reflected = unblocked(cosine, 2.0 * between * facet - cosine, alpha);
+        [reflected, reflected * (1.0 - between).powi(5)]
+    })
+}
+
+/// The share of light with this cosine that leaves the facets of glass.
+fn glass_share(cosine: f64, roughness: f64, index: f64) -> f64 {
+    if roughness == 0.0 {
+        return 1.0;
+    }
+    let [share, _] = mean_over_facets(cosine, roughness, |cosine, alpha, [between, facet]| {
+        let reflected = unblocked(cosine, 2.0 * between * facet - cosine, alpha);
+        let squared = 1.0 - (1.0 - between * between) / (index * index);
+        if squared <= 0.0 {
+            return [reflected, 0.0];
+        }
+        // A. Fresnel's laws.
+        let beyond = squared.sqrt();
+        let parallel = (index * between - beyond) / (index * between + beyond);
+        let perpendicular = (between - index * beyond) / (between + index * beyond);
+        let reflectance = 0.5 * (parallel * parallel + perpendicular * perpendicular);
+        let down = cosine / index - (between / index - beyond) * facet;
+        [reflectance * reflected + (1.0 - reflectance) * unblocked(cosine, down, alpha), 0.0]
+    });
+    share
+}
+
+/// The mean over the facets that light with this cosine meets: E. Heitz and E. d'Eon, "Importance Sampling
+/// Microfacet-Based BSDFs using the Distribution of Visible Normals", CGF 33(4), 2014. If the slopes are scaled by
+/// `1 / alpha`, these facets form a cap of the unit sphere: J. Dupuy and A. Benyoub, CGF 42(8), 2023.
+///
+/// `share` gets the cosine, alpha, and the cosines of the angles between facet and light and between facet and surface.
+fn mean_over_facets(cosine: f64, roughness: f64, share: impl Fn(f64, f64, [f64; 2]) -> Shares) -> Shares {
+    let alpha = roughness * roughness;
     // At 0 itself the slope would be infinite.
     let cosine = cosine.max(1e-5);
     let sine = (1.0 - cosine * cosine).sqrt();
@@ -124,14 +232,9 @@ fn shares(cosine: f64, roughness: f64) -> Shares {
                 [alpha * (radius * cosine_of_turn + along), alpha * radius * sine_of_turn, height + up];
             let length = facet.iter().map(|part| part * part).sum::<f64>().sqrt();
             let (x, z) = (facet[0] / length, facet[2] / length);
-            let between = (sine * x + cosine * z).min(1.0);
-            let out = 2.0 * between * z - cosine;
-            if out > 0.0 {
-                let unblocked =
-                    (1.0 + hidden(cosine, alpha)) / (1.0 + hidden(cosine, alpha) + hidden(out, alpha));
-                let share = weight * weight_of_turn * unblocked;
-                sum[0] += share;
-                sum[1] += share * (1.0 - between).powi(5);
+            let shares = share(cosine, alpha, [(sine * x + cosine * z).min(1.0), z]);
+            for of in 0..2 {
+                sum[of] += weight * weight_of_turn * shares[of];
             }
         }
     }
@@ -141,6 +244,14 @@ fn shares(cosine: f64, roughness: f64) -> Shares {
 /// Maps the unit interval to itself, with small steps at both ends: the value, and its derivative.
 fn eased(t: f64) -> (f64, f64) {
     (t * t * (3.0 - 2.0 * t), 6.0 * t * (1.0 - t))
+}
+
+/// The share of light that no facet blocks on its way out, in a direction with the cosine `out`.
+fn unblocked(cosine: f64, out: f64, alpha: f64) -> f64 {
+    if out <= 0.0 {
+        return 0.0;
+    }
+    (1.0 + hidden(cosine, alpha)) / (1.0 + hidden(cosine, alpha) + hidden(out, alpha))
 }
 
 /// The area of facets that others hide in a direction with this cosine, relative to what can be seen.

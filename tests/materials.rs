@@ -41,15 +41,15 @@ struct Answer {
 
 const ROUGHNESS: [f64; 6] = [0.0, 0.1, 0.3, 0.5, 0.7, 1.0];
 
-/// Every kind of material that scatters light and has the surface of a body: in this color, at every roughness that it can
-/// have. Frosted glass loses a part of the light.
+/// Every kind of material that scatters light, in this color, at every roughness that it can have. The number is the
+/// roughness, or 0 if no light can be aimed at: glass scatters into single directions.
 fn materials(color: &str) -> (SceneRef, Vec<(String, f64)>) {
     let color = format!("color = {color}");
-    let mut kinds = vec![
-        (format!("[matte.m]\n{color}\n"), 1.0),
-        (format!("[mirror.m]\nkr = 1\n{color}\n"), 0.0),
-        ("[glass.m]\n".into(), 0.0),
-    ];
+    let mut kinds =
+        vec![(format!("[matte.m]\n{color}\n"), 1.0), (format!("[mirror.m]\nkr = 1\n{color}\n"), 0.0)];
+    for roughness in ROUGHNESS {
+        kinds.push((format!("[glass.m]\nroughness = {roughness}\n"), 0.0));
+    }
     for roughness in ROUGHNESS {
         for table in [
             format!("[metal.m]\n{color}\n"),
@@ -96,7 +96,7 @@ fn ask(gpu: &Gpu, scene: &SceneRef, questions: &[Question]) -> Vec<Answer> {
 fn white_materials_lose_no_light() {
     let check = |gpu: &Gpu| -> Result<String> {
         const SAMPLES: u32 = 2048;
-        const ANGLES: [f64; 4] = [0.0, 45.0, 75.0, 87.0];
+        const ANGLES: [f64; 3] = [0.0, 60.0, 87.0];
         let (scene, kinds) = materials("[1, 1, 1]");
         let mut questions = Vec::new();
         for kind in 0..kinds.len() {
@@ -113,15 +113,20 @@ fn white_materials_lose_no_light() {
             }
         }
         let answers = ask(gpu, &scene, &questions);
-        let mut worst = 0.0_f64;
+        let mut worst = [0.0_f64; 2];
         for (at, answers) in answers.chunks(SAMPLES as usize).enumerate() {
             let sum: f64 = answers.iter().map(|answer| f64::from(answer.weight[1])).sum();
             let (kind, angle) = (&kinds[at / ANGLES.len()].0, ANGLES[at % ANGLES.len()]);
             let off = sum / f64::from(SAMPLES) - 1.0;
-            worst = worst.max(off.abs());
-            ensure!(off.abs() < 6e-3, "at {angle} degrees, {off:.1e} of the light is added: {kind}");
+            // The table of glass is coarser.
+            let of_glass = usize::from(kind.starts_with("[glass"));
+            worst[of_glass] = worst[of_glass].max(off.abs());
+            ensure!(
+                off.abs() < [5e-3, 2e-2][of_glass],
+                "at {angle} degrees, {off:.1e} of the light is added: {kind}"
+            );
         }
-        Ok(format!("{} materials and angles, {worst:.1e} off at most", answers.len() / SAMPLES as usize))
+        Ok(format!("{} materials and angles, {worst:.5?} off at most", answers.len() / SAMPLES as usize))
     };
     prove(check, &["furnace"]);
 }
@@ -163,7 +168,7 @@ fn the_way_of_the_light_can_be_reversed() {
 /// The hemisphere in pieces of the same solid angle: rows of the same height, and columns.
 const PIECES: [usize; 2] = [8, 12];
 /// Points in a piece, along each axis, at which its density is read.
-const READ: u32 = 12;
+const READ: u32 = 8;
 
 fn piece(direction: [f32; 3]) -> usize {
     let [x, y, z] = direction.map(f64::from);
@@ -176,11 +181,11 @@ fn piece(direction: [f32; 3]) -> usize {
 #[test]
 fn directions_have_their_density() {
     let check = |gpu: &Gpu| -> Result<String> {
-        const SAMPLES: u32 = 16384;
+        const SAMPLES: u32 = 8192;
         let (scene, kinds) = materials("[0.9, 0.5, 0.2]");
-        // Smoother ones are too narrow for the pieces. What depends on the roughness is the same code for all.
+        // Smoother ones are too narrow for the pieces. The code is the same for every roughness.
         let kinds: Vec<_> = (0..kinds.len())
-            .filter(|kind| kinds[*kind].1 > 0.2)
+            .filter(|kind| [0.3, 1.0].contains(&kinds[*kind].1))
             .flat_map(|kind| [0.9, 0.3].map(|cosine| (kind, cosine)))
             .collect();
         let [rows, columns] = PIECES.map(|count| READ * count as u32);

@@ -53,6 +53,8 @@ fn white_things_vanish_in_a_white_sky() {
         (format!("[metal.m]\n{white}"), 1e-5, 1e-6),
         ("[glass.m]".to_owned(), 0.2, 1e-3),
         ("[glass.m]\nindex = 2.4".to_owned(), 0.3, 2e-3),
+        ("[glass.m]\nroughness = 0.4".to_owned(), 0.5, 5e-3),
+        (format!("[metal.m]\n{white}\nroughness = 0.7"), 0.5, 5e-3),
     ] {
         let film = film(&gpu, &furnace(&material));
         let off = film.iter().flat_map(|texel| &texel[..3]).map(|channel| f64::from(channel - 1.0));

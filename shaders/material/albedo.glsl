@@ -54,6 +54,32 @@ vec2 mean_albedo(const float roughness) {
     return is_smooth(roughness) ? vec2(1.0, 1.0 / 21.0) : interpolated_albedo(ALBEDO_CELLS, 0.0, roughness);
 }
 
+// The second table, of glass, begins here. A texel has the eight corners of a cell, in 16 bits each: two that differ in the
+// refractive index, then those of the next roughness, then those of the next cosine.
+const uint GLASS_ALBEDO_BEGIN = ALBEDO_ROWS * (ALBEDO_CELLS + 1u);
+const float GLASS_CELLS = 16.0; // along each axis
+const float MOST_GLASS_INDEX = 4.0; // the indices are up to this one, and their inverses
+
+float between_indices(const uint corners, const float across) {
+    vec2 both = unpackUnorm2x16(corners);
+    return mix(both.x, both.y, across);
+}
+
+// The share of light that leaves rough glass after one reflection or refraction. index_ratio is that of SurfacePoint.
+float glass_albedo(const float cosine, const float roughness, const float index_ratio) {
+    float root = (index_ratio - 1.0) / (index_ratio + 1.0) * ((MOST_GLASS_INDEX + 1.0) / (MOST_GLASS_INDEX - 1.0));
+    float side = sqrt(smaller(abs(root), 1.0));
+    vec3 place = GLASS_CELLS * vec3(0.5 + 0.5 * (root < 0.0 ? -side : side), roughness, sqrt(cosine));
+    vec3 cell = min(floor(place), GLASS_CELLS - 1.0);
+    vec3 across = place - cell;
+    uint at = uint((cell.z * GLASS_CELLS + cell.y) * GLASS_CELLS + cell.x);
+    uvec4 corners = texelFetch(facet_albedo, int(GLASS_ALBEDO_BEGIN + at));
+    vec2 smoother = vec2(between_indices(corners.x, across.x), between_indices(corners.z, across.x));
+    vec2 rougher = vec2(between_indices(corners.y, across.x), between_indices(corners.w, across.x));
+    vec2 ends = mix(smoother, rougher, across.y);
+    return mix(ends.x, ends.y, across.z);
+}
+
 // The share of light that facets with this reflectance at a right angle do not reflect at once.
 float unreflected(const vec2 albedo, const float reflectance) {
     return 1.0 - mix(albedo.y, albedo.x, reflectance);

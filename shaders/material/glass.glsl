@@ -1,6 +1,9 @@
 // A clear body, smooth or frosted. Its surface reflects a part of the light and refracts the rest (A. Fresnel); the color
 // is the absorption inside, per scene unit (A. Beer). Radiance is divided by the square of the refractive index of the
 // medium it is in. This basic radiance stays the same as light is refracted.
+//
+// Light that goes on from facet to facet is given back with the light that leaves at once, in proportion: E. Turquin,
+// "Practical Multiple Scattering Compensation for Microfacet Models", 2019.
 
 #ifndef GLASS_GLSL
 #define GLASS_GLSL
@@ -42,8 +45,11 @@ Scatter glass_sample(
     if (side * other.z <= 0.0 || side * dot(direction, at.normal) <= 0.0) {
         return NO_SCATTER;
     }
-    float unblocked = smooth_surface ? 1.0 : unblocked_share(viewer, other, alpha);
-    return Scatter(direction, vec3(unblocked), 0.0);
+    if (smooth_surface) {
+        return Scatter(direction, vec3(1.0), 0.0);
+    }
+    float leaves = glass_albedo(viewer.z, material.roughness, at.index_ratio);
+    return Scatter(direction, vec3(unblocked_share(viewer, other, alpha) / leaves), 0.0);
 }
 
 #endif

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 
-// What a material scatters, at a point of a surface whose normals are the z axis.
+// What a material scatters, at a point of a surface whose normals are the z axis. Glass is seen from outside.
 
 layout(local_size_x = 64) in;
 
@@ -35,8 +35,8 @@ void main() {
     if (i < inputs.length()) {
         In given = inputs[i];
         vec3 up = vec3(0.0, 0.0, 1.0);
-        SurfacePoint at = SurfacePoint(vec3(0.0), up, up, 0.0, vec3(0.0), vec3(0.0), false, 1.0);
         Material material = get_material(given.material);
+        SurfacePoint at = SurfacePoint(vec3(0.0), up, up, 0.0, vec3(0.0), vec3(0.0), false, material.index);
         vec3 color = texture_value(material.color, at);
         Scatter chosen = material_sample(material, color, at, given.to_viewer, given.xi);
         Scattered again = material_scattered(material, color, at, chosen.direction, given.to_viewer);

@@ -1,7 +1,7 @@
 //! What rough surfaces reflect in all directions together: the table of `examples/facet_albedo.rs`.
 
-/// The corners of each cell of the table: two of a row of nodes, and two of the next. A corner has two numbers of 16 bits.
-/// At the end of each row of cells are the means over all directions.
+/// The corners of each cell of the first table: two of a row of nodes, and two of the next. A corner has two numbers of 16
+/// bits. At the end of each row of cells are the means over all directions. Then comes the table of glass.
 const TABLE: &[u8] = include_bytes!("../../../shaders/facet_albedo.bin");
 const COLUMNS: usize = 64;
 const ROWS: usize = 32;
@@ -42,6 +42,28 @@ impl Albedo {
             (0..4).map(|corner| weight(corner) * number(corner, part)).sum()
         };
         Self { all: value(0), grazing: value(1) }
+    }
+
+    /// The share of light that leaves rough glass after one reflection or refraction. `ratio` is the refractive index beyond
+    /// the surface, relative to that on this side. The second table has the eight corners of each cell.
+    pub(super) fn of_glass(cosine: f64, roughness: f32, ratio: f64) -> f64 {
+        const CELLS: usize = 16;
+        // The index 4 is at the end, 1 in the middle, and 1/4 at the beginning.
+        let root = ((ratio - 1.0) / (ratio + 1.0) / 0.6).clamp(-1.0, 1.0);
+        let axes = [cosine.sqrt(), f64::from(roughness), 0.5 + 0.5 * root.signum() * root.abs().sqrt()];
+        let axes = axes.map(|place| CELLS as f64 * place);
+        let cell = axes.map(|place| (place as usize).min(CELLS - 1));
+        let texel = COLUMNS * (ROWS - 1) + cell.into_iter().fold(0, |at, cell| at * CELLS + cell);
+        let corner = |corner: usize| {
+            let at = 16 * texel + 2 * corner;
+            let share = f64::from(u16::from_le_bytes([TABLE[at], TABLE[at + 1]])) / 65535.0;
+            let weight = |axis: usize| {
+                let far = axes[axis] - cell[axis] as f64;
+                if corner & (4 >> axis) == 0 { 1.0 - far } else { far }
+            };
+            share * weight(0) * weight(1) * weight(2)
+        };
+        (0..8).map(corner).sum()
     }
 
     /// The share that facets of this reflectance do not reflect at once.

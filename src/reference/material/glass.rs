@@ -1,5 +1,6 @@
 //! A clear body: the laws of Snell and Fresnel.
 
+use super::albedo::Albedo;
 use super::microfacet::{alpha, unblocked, viewer, visible_facet};
 use super::{Kind, Scatter};
 use crate::reference::shape::around;
@@ -41,7 +42,8 @@ impl Kind for Glass {
             _ => 2.0 * viewer.dot(facet) * facet - viewer,
         };
         let direction = around(at.shading_normal, other);
-        let weight = DVec3::splat(alpha.map_or(1.0, |alpha| unblocked(viewer, other, alpha)));
+        let leaves = || Albedo::of_glass(viewer.y, self.roughness, at.index_ratio);
+        let weight = DVec3::splat(alpha.map_or(1.0, |alpha| unblocked(viewer, other, alpha) / leaves()));
         // Lamps are met by chance alone, so the density does not matter.
         (side * other.y > 0.0 && side * direction.dot(at.normal) > 0.0).then_some(Scatter {
             direction,
