@@ -168,7 +168,7 @@ fn the_way_of_the_light_can_be_reversed() {
 /// The hemisphere in pieces of the same solid angle: rows of the same height, and columns.
 const PIECES: [usize; 2] = [8, 12];
 /// Points in a piece, along each axis, at which its density is read.
-const READ: u32 = 8;
+const READ: u32 = 16;
 
 fn piece(direction: [f32; 3]) -> usize {
     let [x, y, z] = direction.map(f64::from);
@@ -181,7 +181,7 @@ fn piece(direction: [f32; 3]) -> usize {
 #[test]
 fn directions_have_their_density() {
     let check = |gpu: &Gpu| -> Result<String> {
-        const SAMPLES: u32 = 8192;
+        const SAMPLES: u32 = 16384;
         let (scene, kinds) = materials("[0.9, 0.5, 0.2]");
         // Smoother ones are too narrow for the pieces. The code is the same for every roughness.
         let kinds: Vec<_> = (0..kinds.len())
