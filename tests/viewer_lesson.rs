@@ -47,13 +47,21 @@ fn the_lesson_notices_what_was_done() {
             let corner = place.map(|at| i16::try_from(at).expect("on the screen"));
             viewer.screen(corner, [1, 1])[0].into_iter().max() > Some(180)
         };
-        is_bright([x - 3, y + height / 2]) && is_bright([x + width / 2, y - 3])
+        is_bright([x - 1, y + height / 2]) && is_bright([x + width / 2, y - 1])
+    };
+    // The line leaves the letters above the control free.
+    let touches_name = |control: &str| {
+        let [x, y, width, _] = viewer.controls.borrow()[control];
+        let [x, y] = [x, y - 4].map(|at| i16::try_from(at).expect("on the screen"));
+        let row = viewer.screen([x, y], [u16::try_from(width).expect("a width"), 2]);
+        row.into_iter().any(|[red, _, blue]| red > blue.saturating_add(60))
     };
     let frames = |control: &str| {
         viewer.point_away();
         viewer.rest();
         for other in ["Lens diameter", "Focal plane distance", "Optics"] {
             assert_eq!(is_framed(other), other == control, "{other}, but {control} is asked for");
+            assert!(!touches_name(other), "the frame of {control} touches the name of {other}");
         }
     };
     let is_not_done = |after: &str| {

@@ -138,3 +138,25 @@ fn every_list_has_its_name() {
     }
     viewer.close();
 }
+
+/// Catches a tooltip of the drawing that covers controls of the panel.
+#[test]
+fn tooltips_of_the_drawing_stand_over_the_picture() {
+    let viewer = Viewer::start([960, 720], &["-n", "1"]);
+    viewer.wait_until_done();
+    viewer.click("Optics", |viewer| viewer.controls.borrow().contains_key("Keep"));
+    viewer.wait_until_done();
+    let panel = || viewer.screen([0, 0], [PANEL - 1, 720]);
+    for control in ["To scale", "Keep"] {
+        viewer.point_away();
+        viewer.rest();
+        let [x, y, width, height] = viewer.controls.borrow()[control];
+        let [left, top] = [x, y - 60].map(|at| i16::try_from(at).expect("on the screen"));
+        let above = || viewer.screen([left, top], [80, 40]);
+        let before = (panel(), above());
+        viewer.point([x + width / 2, y + height / 2]);
+        viewer.wait_for("the tooltip", |_| above() != before.1);
+        assert!(panel() == before.0, "the tooltip of {control} lies over the panel");
+    }
+    viewer.close();
+}

@@ -160,6 +160,9 @@ fn a_colour_is_chosen_beside_the_panel() {
                 let is_within =
                     y >= 0 && [0, 1].into_iter().all(|axis| ends[axis] <= i32::from(window[axis]));
                 assert!(is_within, "the picker of {row} ends at {ends:?} in {window:?}, scale {scale}");
+                let edge = [x, y + height / 2].map(|at| i16::try_from(at).expect("on the screen"));
+                let across: Vec<u8> = viewer.screen(edge, [4, 1]).into_iter().map(|[red, ..]| red).collect();
+                assert!(across[0] > across[3] + 20, "the picker of {row} has no edge: {across:?}");
                 close();
                 if number >= 2 {
                     viewer.hands("mousedown 1", 1);

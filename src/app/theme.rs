@@ -21,9 +21,9 @@ const NOTHING: Color = [0.0; 4];
 
 /// The panel, the strip below the picture, and what the picture leaves free.
 pub(super) const GROUND: Color = grey(0.145);
-/// Windows over the picture, lists and tooltips. The picture shines through a little, but no text gets lost on it.
+/// Windows over the picture. The picture shines through a little, but no text gets lost on it.
 pub(super) const OVER: Color = faded(grey(0.10), 0.94);
-/// Lists over controls, whose texts must not shine through.
+/// Lists and tooltips, which may lie over controls, whose texts must not shine through.
 pub(super) const OVER_CONTROLS: Color = faded(OVER, 1.0);
 /// Buttons and fields: at rest, under the pointer, and pressed.
 const RAISED: Color = grey(0.24);
@@ -59,14 +59,14 @@ const LETTERS: f32 = 16.0;
 const STRENGTH: f32 = 1.2;
 /// The opacity of controls that cannot be used now, and of their texts.
 const DISABLED: f32 = 0.65;
-const ROUNDING: f32 = 3.0;
+pub(super) const ROUNDING: f32 = 3.0;
 const WINDOW_ROUNDING: f32 = 6.0;
 /// Between a control and the next one, to the right and below.
 pub(super) const SPACING: [f32; 2] = [6.0, 5.0];
 /// Around the text of a button.
 const FRAME_PADDING: [f32; 2] = [6.0, 3.0];
 /// Around what stands in the panel.
-const PANEL_PADDING: [f32; 2] = [12.0, 6.0];
+pub(super) const PANEL_PADDING: [f32; 2] = [12.0, 6.0];
 /// Around what stands in a window over the picture, and around that window.
 pub(super) const PADDING: f32 = 12.0;
 pub(super) const MARGIN: f32 = 12.0;
@@ -84,6 +84,8 @@ pub(super) const GROUP_GAP: f32 = 9.0;
 /// The lines of icons and of marks over the picture.
 pub(super) const STROKE: f32 = 1.5;
 pub(super) const FRAME_STROKE: f32 = 2.0;
+/// From a control to the middle of the line that frames it, which so touches neither the name above nor a neighbour.
+pub(super) const FRAME_GAP: f32 = 0.5 * CLOSE;
 pub(super) const DIVIDER_SHADE: f32 = 4.0;
 /// The bar that shows how far the picture has come.
 pub(super) const BAR: f32 = 3.0;
@@ -248,9 +250,11 @@ pub(super) fn unseen(ui: &Ui) -> impl Sized {
     )
 }
 
-/// The next window lies over the picture, and has this ground.
+/// The next window lies over the picture, and has this ground. It has an edge, even where it is opened from the panel.
 pub(super) fn over(ui: &Ui, ground: Color) -> impl Sized {
     (
+        ui.push_style_var(StyleVar::WindowRounding(WINDOW_ROUNDING)),
+        ui.push_style_var(StyleVar::WindowBorderSize(1.0)),
         ui.push_style_var(StyleVar::WindowPadding([PADDING; 2])),
         ui.push_style_color(StyleColor::WindowBg, ground),
     )

@@ -5,7 +5,7 @@ use crate::app::area::Area;
 use crate::app::lesson::{Lesson, STEPS};
 use crate::app::over_picture::{Over, Place};
 use crate::app::panel::Panel;
-use crate::app::theme::{self, FRAME_STROKE, LESSON_WIDTH, SPACING};
+use crate::app::theme::{self, FRAME_GAP, FRAME_STROKE, LESSON_WIDTH, ROUNDING};
 use imgui::{Key, MouseButton, Ui, WindowHoveredFlags};
 
 const GREETING: [&str; 3] = [
@@ -104,11 +104,11 @@ impl Panel {
         if let Some((_, rectangle)) = controls.iter().find_map(place) {
             let scale = ui.io().display_framebuffer_scale;
             let [left, top, width, height] = rectangle.map(|pixels| pixels as f32);
-            let beyond = 0.5 * SPACING[1];
+            let beyond = FRAME_GAP;
             let min = [left / scale[0] - beyond, top / scale[1] - beyond];
             let max = [(left + width) / scale[0] + beyond, (top + height) / scale[1] + beyond];
             let list = ui.get_foreground_draw_list();
-            list.add_rect(min, max, theme::ACCENT).rounding(beyond).thickness(FRAME_STROKE).build();
+            list.add_rect(min, max, theme::ACCENT).rounding(ROUNDING).thickness(FRAME_STROKE).build();
         }
     }
 }

@@ -2,7 +2,9 @@
 
 pub(super) use crate::app::panel::Layout;
 
-use crate::app::theme::{self, Color, GRIP, LIST_NAME, SPACING, TOOLTIP_PADDING, TOOLTIP_WIDTH};
+use crate::app::theme::{
+    self, Color, GRIP, LIST_NAME, PANEL_PADDING, SPACING, TOOLTIP_PADDING, TOOLTIP_WIDTH,
+};
 use imgui::{Condition, ItemHoveredFlags, MouseButton, MouseCursor, TreeNodeFlags, Ui, WindowFlags};
 use std::collections::BTreeMap;
 
@@ -79,30 +81,34 @@ pub(super) fn tooltip(ui: &Ui, help: &str) {
     }
 }
 
-/// Draws a text beside the window of the last item, so that it covers no control. If there is no room at either side,
-/// it stands below the item.
+/// Draws a text beside the window of the last item, so that it covers no control: at its right, or above it, where the
+/// picture is. If there is no room for that, it stands below the item.
 pub(super) fn beside(ui: &Ui, text: &str, color: Color) {
     let lines = wrapped(text, |line| ui.calc_text_size(line)[0] <= TOOLTIP_WIDTH);
     let line_height = ui.text_line_height();
     let width =
         lines.iter().map(|line| ui.calc_text_size(line)[0]).fold(0.0, f32::max) + 2.0 * TOOLTIP_PADDING;
     let height = lines.len() as f32 * line_height + 2.0 * TOOLTIP_PADDING;
-    let ([left, _], [extent, _]) = (ui.window_pos(), ui.window_size());
+    let ([left, top], [extent, _]) = (ui.window_pos(), ui.window_size());
     let [display_width, display_height] = ui.io().display_size;
     let (min, max) = (ui.item_rect_min(), ui.item_rect_max());
-    let (right, before) = (left + extent + TOOLTIP_PADDING, left - TOOLTIP_PADDING - width);
+    let (right, above) = (left + extent + TOOLTIP_PADDING, top - TOOLTIP_PADDING - height);
+    // As far right as the item, if it fits into the display there.
+    let at_item = (display_width - width).clamp(0.0, min[0].max(0.0));
+    // Above the sections of the panel, there are other controls and no picture.
+    let is_panel = left <= PANEL_PADDING[0];
     let [x, y] = if right + width <= display_width {
         [right, min[1]]
-    } else if before >= 0.0 {
-        [before, min[1]]
+    } else if above >= 0.0 && !is_panel {
+        [at_item, above]
     } else {
-        [(display_width - width).clamp(0.0, min[0].max(0.0)), max[1] + TOOLTIP_PADDING]
+        [at_item, max[1] + TOOLTIP_PADDING]
     };
     let y = y.min(display_height - height).max(0.0);
     let list = ui.get_foreground_draw_list();
     let corners = ([x, y], [x + width, y + height]);
     let rounding = 0.5 * TOOLTIP_PADDING;
-    list.add_rect(corners.0, corners.1, theme::OVER).filled(true).rounding(rounding).build();
+    list.add_rect(corners.0, corners.1, theme::OVER_CONTROLS).filled(true).rounding(rounding).build();
     list.add_rect(corners.0, corners.1, theme::EDGE).rounding(rounding).build();
     for (number, line) in lines.iter().enumerate() {
         let y = y + TOOLTIP_PADDING + number as f32 * line_height;
