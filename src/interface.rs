@@ -183,6 +183,10 @@ pub mod shape {
         TRIANGLE,
         /// The side of a cylinder.
         CYLINDER,
+        /// A rectangle.
+        RECTANGLE,
+        /// A flat disc.
+        DISC,
         /// An infinite plane.
         PLANE,
     }

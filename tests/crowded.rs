@@ -145,16 +145,28 @@ fn only_copies_are_left_out_of_the_tree() {
         "[0, 0, 0], [1, 0, 0], [0, 0, 1]",
     ]
     .map(triangle);
-    let text =
-        [HEAD, &sphere.repeat(3), &moving, &moving, &larger, cube, cube, &one, &turned, &other].concat();
+    let rectangle = |at: &str| format!("[[rectangle]]\n{at}\nmaterial = \"m\"\n");
+    let rectangles = [
+        "corner = [0, 0, 0]\nedges = [[1, 0, 0], [0, 2, 0]]",
+        "corner = [1, 2, 0]\nedges = [[0, -2, 0], [-1, 0, 0]]",
+        "corner = [0, 0, 0]\nedges = [[1, 0, 0], [0, 0, 2]]",
+    ]
+    .map(rectangle);
+    let disc = |normal: &str| {
+        format!("[[disc]]\ncenter = [0, 0, 0]\nnormal = {normal}\nradius = 1\nmaterial = \"m\"\n")
+    };
+    let discs = ["[0, 1, 2]", "[0, -2, -4]", "[0, 1, -2]"].map(disc);
+    let spheres = [sphere.repeat(3), moving.repeat(2), larger].concat();
+    let triangles = [one, turned, other].concat();
+    let text = [HEAD, &spheres, cube, cube, &triangles, &rectangles.concat(), &discs.concat()].concat();
     let scene = load(&[("a.toml", &text)]);
     let bvh = bvh(&scene);
     let mut leaves: Vec<u32> = (bvh.records.iter())
         .filter_map(|record| if let Record::Leaf(shape) = record { Some(*shape) } else { None })
         .collect();
     leaves.sort_unstable();
-    // The spheres come first, then the boxes, then the triangles.
-    assert_eq!(leaves, [0, 3, 5, 6, 8, 10]);
+    // The spheres come first, then the boxes, the triangles, the rectangles and the discs.
+    assert_eq!(leaves, [0, 3, 5, 6, 8, 10, 11, 13, 14, 16]);
 }
 
 /// Catches a library that is read again for every line that names it, and a folder that is listed again for

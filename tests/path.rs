@@ -168,12 +168,40 @@ fn the_light_of_a_lamp_has_its_closed_form() {
     let sphere = "[[sphere]]\ncenter = [0.6, 0.8, 0]\nradius = 0.3\nmaterial = \"lamp\"\n";
     // A sphere that is all above the floor counts by the cosine of its middle.
     let of_sphere = PI * 0.3_f64.powi(2) * 0.8;
+    // Its second edge is a little slanted, as numbers with three digits are.
+    let edges = [[0.8, 0.3, 0.1], [-0.3, 0.7, 0.302]].map(DVec3::from_array);
+    let straight = edges[1] - edges[1].project_onto(edges[0]);
+    let corner = DVec3::new(-0.7, 0.8, 0.2);
+    let window = [corner, corner + edges[0], corner + edges[0] + straight, corner + straight];
+    let rectangle = format!(
+        "[[rectangle]]\ncorner = {corner}\nedges = [{}, {}]\nmaterial = \"lamp\"\n",
+        edges[0], edges[1]
+    );
+    // A disc that hangs level, beside the middle: J. Howell, "A Catalog of Radiation Heat Transfer Configuration Factors",
+    // B-13. One that is turned is nearly a polygon of very many corners.
+    let (radius, height, beside) = (0.5_f64, 0.8_f64, 0.9_f64);
+    let [h, r] = [height, radius].map(|length| (length / beside).powi(2));
+    let level_irradiance = PI / 2.0 * (1.0 - (1.0 + h - r) / ((1.0 + h + r).powi(2) - 4.0 * r).sqrt());
+    let level = format!(
+        "[[disc]]\ncenter = [{beside}, {height}, 0]\nnormal = [0, 2, 0]\nradius = {radius}\nmaterial = \"lamp\"\n"
+    );
+    let (center, normal) = (DVec3::new(0.3, 0.9, -0.6), DVec3::new(0.6, -1.0, 0.2));
+    let (across, other) = normal.normalize().any_orthonormal_pair();
+    let rim: Vec<DVec3> = (0..4096)
+        .map(|number| f64::from(number) * 2.0 * PI / 4096.0)
+        .map(|angle| center + radius * (angle.cos() * across + angle.sin() * other))
+        .collect();
+    let turned =
+        format!("[[disc]]\ncenter = {center}\nnormal = {normal}\nradius = {radius}\nmaterial = \"lamp\"\n");
     // A second lamp that is out of sight, to be chosen in vain.
     let below_floor = "[[sphere]]\ncenter = [0, -2, 0]\nradius = 0.5\nmaterial = \"lamp\"\n";
     for (lamp, irradiance) in [
         (sphere.to_owned(), of_sphere),
         (triangle, lambert(&corners)),
         (flat.to_owned(), lambert(&face)),
+        (rectangle, lambert(&window)),
+        (level, level_irradiance),
+        (turned, lambert(&rim)),
         (format!("{sphere}{below_floor}"), of_sphere),
     ] {
         let film = film(&gpu, &below(&lamp, 1024));

@@ -1,10 +1,10 @@
 //! Scene files: what they mean, and where their errors point.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use thinlens::error::Error;
 use thinlens::scene::{
-    self, BUILTINS, Box, CameraModel, Checker, LightKind, Matte, Metal, Overlay, Phong, Plane, SceneRef,
-    Sphere, Texture, Tolerance, Triangle, View,
+    self, BUILTINS, Box, CameraModel, Checker, LightKind, Matte, Metal, Overlay, Phong, Plane, Rectangle,
+    SceneRef, Sphere, Texture, Tolerance, Triangle, View,
 };
 use thinlens::settings::{Access, Settings, Unit, list};
 
@@ -131,6 +131,9 @@ fn an_error_names_its_line_and_what_would_be_right() {
         assert!(VALID.contains(old));
         VALID.replacen(old, new, 1)
     };
+    let rectangle = |edges: &str| {
+        format!("{VALID}[[rectangle]]\ncorner = [0, 0, -9]\nedges = {edges}\nmaterial = \"red\"\n")
+    };
     for (at, text, part) in [
         ("vfov_degres", with("vfov_degrees = 60", "vfov_degres = 60"), "vfov_degrees"),
         ("radios", with("radius = 1\n", "radius = 1\nradios = 2\n"), "radios"),
@@ -143,6 +146,10 @@ fn an_error_names_its_line_and_what_would_be_right() {
         ("= -1\n", with("radius = 1\n", "radius = -1\n"), "radius is -1, but must be from"),
         ("\"rde\"", with("\"red\"", "\"rde\""), "blue, red"),
         ("[[0, 0, -9]", with("[1, 0, -9]", "[0, 0, -9]"), "one line"),
+        ("[[1, 1, 0]", rectangle("[[1, 1, 0], [0, 2, 0]]"), "must be perpendicular"),
+        ("[[1, 1, 0]", rectangle("[[1, 1, 0], [-2, -2, 0]]"), "same direction"),
+        ("[[1, 1, 0]", rectangle("[[1, 1, 0], [0, 0, 0]]"), "too short"),
+        ("[1, 1, 0]", rectangle("[1, 1, 0]"), "two edges, [[x, y, z], [x, y, z]]"),
         ("[1, 0]", with("[1, 0, 0]", "[1, 0]"), "[r, g, b]"),
         ("[camera]", with("vfov_degrees = 60\n", ""), "vfov_degrees, or focal_length"),
         ("\"50mm\"", with("vfov_degrees = 60", "preset = \"50mm\""), "50mm-f1.8, 50mm-f1.4"),
@@ -185,6 +192,17 @@ fn an_error_names_its_line_and_what_would_be_right() {
         let message = error_at(at, &text);
         assert!(message.contains(part), "{at}: '{message}' does not say '{part}'");
     }
+}
+
+/// Catches edges that are a little slanted because of their few digits, and stay so.
+#[test]
+fn the_edges_of_a_rectangle_are_perpendicular() {
+    let edges = "[[0.707, 0.707, 0.02], [-0.353, 0.354, 0.001]]";
+    let text = format!("{VALID}[[rectangle]]\ncorner = [0, 1, -9]\nedges = {edges}\nmaterial = \"red\"\n");
+    let scene = load(&text).expect("valid");
+    let [a, b] = scene.of_kind::<Rectangle>().next().expect("a rectangle").0.edges;
+    assert!(a.dot(b).abs() < 1e-15, "{a} and {b}");
+    assert!(a == DVec3::new(0.707, 0.707, 0.02) && b.distance(DVec3::new(-0.353, 0.354, 0.001)) < 1e-3);
 }
 
 /// A text for a number of each kind, and the number in the unit that the option has. A length is in metres.

@@ -73,14 +73,18 @@ fn shapes() -> Vec<(&'static str, SceneRef)> {
     let a_box = ("box", "lower = [-1.2, -0.7, -0.4]\nupper = [0.9, 0.8, 1.1]");
     let triangle = ("triangle", "vertices = [[-1.5, -1, 0.3], [1.2, -0.8, -0.2], [0.1, 1.6, 0.5]]");
     let cylinder = ("cylinder", "start = [-1.1, 0.4, -0.8]\nend = [0.9, -0.6, 1.2]\nradius = 0.7");
+    let rectangle = ("rectangle", "corner = [-1.4, -0.9, 0.3]\nedges = [[2, 1, -0.5], [-0.5, 2, 2]]");
+    let disc = ("disc", "center = [0.2, 0.3, -0.4]\nnormal = [0.4, -1.2, 0.5]\nradius = 1.2");
     let plane = ("plane", "point = [0.2, -0.5, 0.1]\nnormal = [0.3, 2, -0.4]");
     vec![
         ("sphere", scene(&[sphere])),
         ("box", scene(&[a_box])),
         ("triangle", scene(&[triangle])),
         ("cylinder", scene(&[cylinder])),
+        ("rectangle", scene(&[rectangle])),
+        ("disc", scene(&[disc])),
         ("plane", scene(&[plane])),
-        ("all of them", scene(&[sphere, far_sphere, a_box, triangle, cylinder, plane])),
+        ("all of them", scene(&[sphere, far_sphere, a_box, triangle, cylinder, rectangle, disc, plane])),
         ("a crowd", crowd()),
         ("a chain", chain()),
     ]
@@ -113,6 +117,14 @@ fn crowd() -> SceneRef {
         let (center, radius) = at(index, 17);
         let end = center + 4.0 * radius * random_direction(index, 18);
         toml += &format!("[[cylinder]]\nstart = {center}\nend = {end}\nradius = {radius}\n{material}");
+        let (corner, size) = at(index, 19);
+        let edge = 4.0 * size * random_direction(index, 20);
+        let across = edge.cross(random_direction(index, 21));
+        toml += &format!("[[rectangle]]\ncorner = {corner}\nedges = [{edge}, {across}]\n{material}");
+        let (center, radius) = at(index, 22);
+        let normal = random_direction(index, 23);
+        toml +=
+            &format!("[[disc]]\ncenter = {center}\nnormal = {normal}\nradius = {}\n{material}", 2.0 * radius);
         let (center, size) = at(index, 7);
         let [a, b] = [8, 9].map(|stream| center + 6.0 * size * random_direction(index, stream));
         toml += &format!("[[triangle]]\nvertices = [{center}, {a}, {b}]\n{material}");

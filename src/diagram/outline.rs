@@ -5,7 +5,7 @@ use crate::settings::to_srgb;
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
-/// A ball and a cylinder are drawn with so many corners.
+/// What is round is drawn with so many corners.
 const CORNERS: u32 = 64;
 /// A scene with more shapes than this is drawn without its objects, because cutting them all would take too long.
 const MAX_SHAPES: usize = 100_000;
@@ -82,18 +82,23 @@ pub(super) fn outlines(
             around(crossings(edges.map(|edge| edge.map(|corner| corners[corner])), off).map(flat))
         }
         Shape::Cylinder(cylinder) => {
-            let (across, other) = cylinder.axis().any_orthonormal_pair();
-            let rim = |middle: DVec3, number: u32| {
-                let (sin, cos) = (TAU * f64::from(number) / f64::from(CORNERS)).sin_cos();
-                local(middle + f64::from(cylinder.radius) * (cos * across + sin * other))
-            };
+            let [start, end] =
+                [cylinder.start, cylinder.end].map(|middle| rim(middle, cylinder.axis(), cylinder.radius));
             let edges = (0..CORNERS).flat_map(|number| {
-                let [a, b, c] =
-                    [(cylinder.start, number), (cylinder.end, number), (cylinder.start, number + 1)]
-                        .map(|(middle, number)| rim(middle, number));
-                [[a, b], [a, c], [b, rim(cylinder.end, number + 1)]]
+                let [a, b, c] = [start(number), end(number), start(number + 1)].map(local);
+                [[a, b], [a, c], [b, local(end(number + 1))]]
             });
             around(crossings(edges, off).map(flat))
+        }
+        Shape::Rectangle(_) => {
+            let corners: Vec<DVec3> = shape.corners(glam::DMat3::IDENTITY).iter().map(local).collect();
+            let edges = (0..4).map(|number| [corners[number], corners[(number + 1) % 4]]);
+            crossings(edges, off).map(flat).collect()
+        }
+        Shape::Disc(disc) => {
+            let rim = rim(disc.center, disc.axis(), disc.radius);
+            let edges = (0..CORNERS).map(|number| [rim(number), rim(number + 1)].map(local));
+            crossings(edges, off).map(flat).collect()
         }
     };
     let outlines = scene.shapes.iter().filter_map(|of| {
@@ -122,6 +127,15 @@ fn ball(center: DVec3, radius: f64, slope: f64, within: usize, out: usize) -> Ve
         DVec2::new(middle + half / steepness.sqrt() * cos, center[within] + half * sin)
     };
     (0..CORNERS).map(corner).collect()
+}
+
+/// The corners of a polygon that stands for the circle of this radius around an axis.
+fn rim(middle: DVec3, axis: DVec3, radius: f32) -> impl Fn(u32) -> DVec3 {
+    let (across, other) = axis.any_orthonormal_pair();
+    move |number| {
+        let (sin, cos) = (TAU * f64::from(number) / f64::from(CORNERS)).sin_cos();
+        middle + f64::from(radius) * (cos * across + sin * other)
+    }
 }
 
 /// Where edges cross the plane on which `off` is zero.

@@ -35,6 +35,8 @@ impl ShapeRecord {
             Shape::Box(_) => shape::BOX,
             Shape::Triangle(_) => shape::TRIANGLE,
             Shape::Cylinder(_) => shape::CYLINDER,
+            Shape::Rectangle(_) => shape::RECTANGLE,
+            Shape::Disc(_) => shape::DISC,
             Shape::Plane(_) => shape::PLANE,
         }
     }
@@ -54,6 +56,11 @@ impl ShapeRecord {
                 let numbers = Vec3::new(cylinder.radius, half.length() as f32, 0.0);
                 ((cylinder.start + half).as_vec3(), cylinder.axis().as_vec3(), numbers)
             }
+            Shape::Rectangle(rectangle) => {
+                let [a, b] = rectangle.edges.map(|edge| edge.as_vec3());
+                (rectangle.corner.as_vec3(), a, b)
+            }
+            Shape::Disc(disc) => (disc.center.as_vec3(), disc.axis().as_vec3(), Vec3::X * disc.radius),
             Shape::Plane(plane) => {
                 let normal = plane.normal.as_dvec3().normalize();
                 let offset = flush_denormal(normal.dot(plane.point) as f32);

@@ -199,6 +199,17 @@ material = "polished"
 [[triangle]]
 vertices = [[-2.5, 0, -2], [2.5, 0, -2], [0, 2.5, -2.2]]
 material = "gold"
+[[rectangle]]
+corner = [-0.5, 2.2, -0.3]
+edges = [[0.6, 0, 0.3], [-0.1, 0.3, 0.2]]
+material = "lamp"
+velocity = [-6, 0, 3]
+[[disc]]
+center = [-1.2, 1.9, 0.6]
+normal = [0.3, -1, 0.2]
+radius = 0.25
+material = "lamp"
+velocity = [0, 5, 6]
 "#;
 
 /// A room seen from inside, and a ball beyond its lamp that must not shadow anything.

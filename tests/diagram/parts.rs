@@ -178,12 +178,14 @@ fn outlines_are_those_of_the_apertures() {
 }
 
 /// The colours of the objects below.
-const COLORS: [(&str, [f64; 3]); 5] = [
+const COLORS: [(&str, [f64; 3]); 7] = [
     ("floor", [0.4, 0.4, 0.2]),
     ("ball", [0.8, 0.1, 0.2]),
     ("crate", [0.1, 0.3, 0.6]),
     ("sail", [0.2, 0.7, 0.1]),
     ("pipe", [0.5, 0.1, 0.5]),
+    ("board", [0.6, 0.5, 0.1]),
+    ("plate", [0.1, 0.6, 0.6]),
 ];
 
 /// Objects of every shape, each in a colour of its own.
@@ -214,6 +216,10 @@ color = [0.2, 0.7, 0.1]
 ka = 0.3
 kd = 0.9
 color = [0.5, 0.1, 0.5]
+[matte.board]
+color = [0.6, 0.5, 0.1]
+[matte.plate]
+color = [0.1, 0.6, 0.6]
 [[plane]]
 point = [0, 0, 0]
 normal = [0.1, 1, 0]
@@ -229,6 +235,15 @@ material = "crate"
 [[triangle]]
 vertices = [[-0.3, 0.1, 1], [0.5, 0.1, 1.2], [0.1, 1.0, 0.7]]
 material = "sail"
+[[rectangle]]
+corner = [-3.2, 0.1, -0.5]
+edges = [[1.0, 0, 0.6], [0, 1.4, 0]]
+material = "board"
+[[disc]]
+center = [-0.9, 1.9, 0.2]
+normal = [0.2, 0.1, 1]
+radius = 0.45
+material = "plate"
 [[cylinder]]
 start = [1.5, 0.1, -0.5]
 end = [1.9, 2.0, -1.5]
@@ -263,7 +278,7 @@ fn the_centre_ray_ends_at_the_outline_of_what_it_hits() {
         }
         seen.insert(diagram.material);
     }
-    assert_eq!(seen.len(), 5, "only {seen:?} is seen");
+    assert_eq!(seen.len(), 7, "only {seen:?} is seen");
 }
 
 /// Where the centre ray crosses an outline first, and which one.

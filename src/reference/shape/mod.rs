@@ -3,7 +3,9 @@
 
 mod r#box;
 mod cylinder;
+mod disc;
 mod plane;
+mod rectangle;
 mod sphere;
 mod triangle;
 
@@ -61,6 +63,8 @@ pub fn crossing(shape: &Shape, ray: Ray, least: f64) -> Option<Crossing> {
         Shape::Box(shape) => r#box::crossing(shape, ray, least),
         Shape::Triangle(shape) => triangle::crossing(shape, ray, least),
         Shape::Cylinder(shape) => cylinder::crossing(shape, ray, least),
+        Shape::Rectangle(shape) => rectangle::crossing(shape, ray, least),
+        Shape::Disc(shape) => disc::crossing(shape, ray, least),
         Shape::Plane(shape) => plane::crossing(shape, ray, least),
     }
 }
@@ -73,6 +77,8 @@ pub(super) fn point(shape: &Shape, xi: [f64; 2]) -> Option<(DVec3, DVec3)> {
         Shape::Box(shape) => Some(r#box::point(shape, xi)),
         Shape::Triangle(shape) => Some(triangle::point(shape, xi)),
         Shape::Cylinder(shape) => Some(cylinder::point(shape, xi)),
+        Shape::Rectangle(shape) => Some(rectangle::point(shape, xi)),
+        Shape::Disc(shape) => Some(disc::point(shape, xi)),
         Shape::Plane(_) => None,
     }
 }

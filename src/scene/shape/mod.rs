@@ -3,7 +3,9 @@
 
 mod r#box;
 mod cylinder;
+mod disc;
 mod plane;
+mod rectangle;
 mod sphere;
 mod triangle;
 
@@ -21,6 +23,8 @@ macro_rules! shape_kinds {
                 (Box, BoxTable, r#box),
                 (Triangle, TriangleTable, triangle),
                 (Cylinder, CylinderTable, cylinder),
+                (Rectangle, RectangleTable, rectangle),
+                (Disc, DiscTable, disc),
                 (Plane, PlaneTable, plane),
             ]
         }

@@ -183,9 +183,10 @@ fn value_of(table: Option<&str>, key: &str) -> String {
         (
             _,
             "eye" | "look_at" | "up" | "center" | "velocity" | "lower" | "upper" | "start" | "end" | "point"
-            | "normal" | "position" | "direction" | "rotate_degrees",
+            | "normal" | "position" | "direction" | "rotate_degrees" | "corner",
         ) => THREE_NUMBERS,
         (_, "vertices") => "three corners, [[x, y, z], [x, y, z], [x, y, z]]",
+        (_, "edges") => "two edges, [[x, y, z], [x, y, z]]",
         (
             _,
             "integrator" | "material" | "file" | "image" | "preset" | "sensor" | "model" | "overlay"
