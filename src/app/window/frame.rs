@@ -111,7 +111,7 @@ impl OpenWindow {
         };
         self.panel.watch_job();
         let camera = self.panel.settings.estimator.camera;
-        let action = self.panel.draw(ui, &status, room, area).or_else(|| keys::pressed(ui));
+        let action = self.panel.draw(ui, &status, room, area).or_else(|| keys::pressed(ui, &self.held_keys));
         self.navigate.take_input(ui, &mut self.panel.settings.estimator, area);
         self.focus.take_input(ui, &mut self.panel, area);
         self.focus.follow(&camera, &mut self.panel);

@@ -8,7 +8,7 @@ use super::clipboard::Clipboard;
 use super::focus::Focus;
 use super::graphics::Graphics;
 use super::history::History;
-use super::keys::Modifiers;
+use super::keys::HeldKeys;
 use super::loader::Loader;
 use super::memory;
 use super::navigate::Navigate;
@@ -66,7 +66,7 @@ struct OpenWindow {
     history: History<State>,
     /// Wakes the window when another thread has news.
     waker: EventLoopProxy<()>,
-    modifiers: Modifiers,
+    held_keys: HeldKeys,
     has_clipboard: bool,
     window: Arc<Window>,
     last_frame: Instant,
@@ -150,7 +150,7 @@ impl ApplicationHandler for Viewer {
                     (open.frames_to_draw + more).clamp(FRAMES_AFTER_EVENT, MAX_FRAMES_TO_DRAW);
                 open.unshown_since.get_or_insert_with(Instant::now);
                 let scale = open.platform.hidpi_factor();
-                open.modifiers.take(&event, open.imgui.io_mut());
+                open.held_keys.take(&event, open.imgui.io_mut());
                 let event: Event<()> = Event::WindowEvent { window_id, event };
                 open.platform.handle_event(open.imgui.io_mut(), &open.window, &event);
                 if open.platform.hidpi_factor() != scale {
@@ -297,7 +297,7 @@ impl OpenWindow {
             waker: waker.clone(),
             focus: Focus::default(),
             navigate: Navigate::default(),
-            modifiers: Modifiers::default(),
+            held_keys: HeldKeys::default(),
             has_clipboard,
             window,
             last_frame: Instant::now(),
