@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 use thinlens::error::Result;
-use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush, lens_constants};
+use thinlens::gpu_types::{AccumulatePush, Camera, Counters, SceneData, TracePush, lens_constants, limits};
 use thinlens::interface::binding;
 use thinlens::passes::{
     Accumulate, AdaptiveBuffers, ApertureBuffers, BlueNoiseTile, FacetAlbedo, SceneBuffers, Trace,
@@ -87,7 +87,7 @@ fn measure(device: &Arc<Device>, name: &str) -> Result<()> {
             camera: Camera::new(estimator),
             lattice,
             seed: 0,
-            max_bounces: estimator.max_bounces,
+            limits: limits(estimator),
             first_sample,
             sample_count: SAMPLES,
         };

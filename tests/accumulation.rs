@@ -8,7 +8,7 @@ use common::scenes::BURNING;
 use common::{Gpu, bits, film, probe, prove, render, scene_of, settings_of, small};
 use glam::DVec3;
 use std::sync::Arc;
-use thinlens::gpu_types::{Camera, Counters, SceneData, TracePush, lens_constants};
+use thinlens::gpu_types::{Camera, Counters, SceneData, TracePush, lens_constants, limits};
 use thinlens::passes::{AdaptiveBuffers, ApertureBuffers, BlueNoiseTile, FacetAlbedo, SceneBuffers, Trace};
 use thinlens::reference::{self, sampler};
 use thinlens::renderer::schedule::Batch;
@@ -51,7 +51,7 @@ fn record(gpu: &Gpu, settings: &Settings) -> Result<Vec<Vec<[f32; 4]>>> {
             camera: Camera::new(estimator),
             lattice: Batch::whole(first_sample, *samples, 1, 1).lattice(estimator.size),
             seed: estimator.seed,
-            max_bounces: estimator.max_bounces,
+            limits: limits(estimator),
             first_sample,
             sample_count: 1,
         };

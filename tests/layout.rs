@@ -62,7 +62,7 @@ fn twins() -> Vec<Twin> {
             ]
         ),
         twin!("Lattice", Lattice, [extent, origin, stride, first_row, row_step, row_count]),
-        twin!("TracePush", TracePush, [camera, lattice, seed, max_bounces, first_sample, sample_count]),
+        twin!("TracePush", TracePush, [camera, lattice, seed, limits, first_sample, sample_count]),
         twin!("AccumulatePush", AccumulatePush, [lattice, seed, first_sample, jitter, reach]),
         twin!("SelectPush", SelectPush, [lattice, threshold, cell]),
         twin!(

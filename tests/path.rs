@@ -4,7 +4,7 @@ mod common;
 
 use anyhow::{Result, ensure};
 use common::scenes::PATHS;
-use common::{Gpu, film, prove, scene_of, settings_of};
+use common::{Gpu, bits, film, prove, scene_of, settings_of};
 use glam::DVec3;
 use std::f64::consts::PI;
 use thinlens::scene::Integrator;
@@ -29,6 +29,28 @@ fn paths_follow_the_oracle() {
         Ok(figures.join(", "))
     };
     prove(check, &["paths"]);
+}
+
+/// Catches a limit that ends paths too early or too late, that cuts off light of the first surface, or changes a colour.
+#[test]
+fn limits_of_paths_follow_the_oracle() {
+    let check = |gpu: &Gpu| -> Result<String> {
+        let mut settings = settings_of(PATHS, [48, 36], 6);
+        (settings.estimator.diffuse_bounces, settings.estimator.clamp) = (2, 0.4);
+        let agreement = verify(&mut gpu.renderer(&settings), &settings)?;
+        let differ = 100.0 * agreement.mismatch_share();
+        ensure!(differ < 0.2, "{differ:.3}% of the samples differ");
+
+        // A limit that nothing reaches changes no bit, and one scattering is direct light alone where nothing mirrors.
+        let mut floor = below("[[sphere]]\ncenter = [0.4, 0.8, 0]\nradius = 0.3\nmaterial = \"lamp\"\n", 16);
+        let direct = bits(&film(gpu, &floor));
+        floor.estimator.clamp = 6e4;
+        ensure!(bits(&film(gpu, &floor)) == direct, "a clamp of 60000 cuts something off");
+        (floor.estimator.max_bounces, floor.estimator.diffuse_bounces) = (9, 1);
+        ensure!(bits(&film(gpu, &floor)) == direct, "one diffuse bounce is not direct light");
+        Ok(format!("{differ:.3}% differ"))
+    };
+    prove(check, &["limits"]);
 }
 
 /// A ball of this material, in a camera that sees nothing else, under a sky of radiance 1.

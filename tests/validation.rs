@@ -53,7 +53,7 @@ fn record_two_passes(gpu: &Gpu, barrier: bool) {
         camera: Camera::new(estimator),
         lattice: sample.lattice(estimator.size),
         seed: 0,
-        max_bounces: 0,
+        limits: 0,
         first_sample: 0,
         sample_count: 1,
     };

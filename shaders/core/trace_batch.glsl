@@ -11,7 +11,7 @@ struct TracePush {
     Camera camera;
     Lattice lattice;
     uint seed;
-    uint max_bounces;
+    uint limits; // see core/limits.glsl
     uint first_sample;
     uint sample_count; // at least one
 };
@@ -54,7 +54,7 @@ vec4 trace_batch(const TracePush push, const uvec2 pixel, out float moment) {
         do {
             Ray ray = primary_ray(push.camera, q, lens_point.xy, channel);
             bool lost;
-            vec3 seen = radiance(ray, path, push.max_bounces, rays, lost);
+            vec3 seen = radiance(ray, path, push.limits, rays, lost);
             if (HAS_DISPERSION == 1u) {
                 given_up = given_up || lost;
                 color[channel] = seen[channel];

@@ -4,6 +4,7 @@
 #ifndef PATH_GLSL
 #define PATH_GLSL
 
+#include "core/limits.glsl"
 #include "core/sampling.glsl"
 #include "integrator/media.glsl"
 #include "light/sky.glsl"
@@ -78,15 +79,19 @@ vec3 direct_light(
     return (weight / lamp.density) * scattered.share * arriving;
 }
 
-// The radiance that arrives along the ray, by light that was scattered at most max_bounces times. rays counts every ray
-// traced. given_up is true if a search took too long; the radiance is then of no use.
-vec3 radiance(Ray ray, const PathSampler path, const uint max_bounces, inout uint rays, out bool given_up) {
+// The radiance that arrives along the ray, by light that was scattered no more often than the limits allow. rays counts every
+// ray traced. given_up is true if a search took too long; the radiance is then of no use.
+vec3 radiance(Ray ray, const PathSampler path, const uint limits, inout uint rays, out bool given_up) {
     vec3 sum = vec3(0.0);
     vec3 throughput = vec3(1.0);
     given_up = false;
     Media here = in_air();
     float density = 0.0; // with which the direction of the ray was chosen; 0 if it was the only one
     uint bounce = 0u;
+    uint diffuse_bounces = 0u;
+    // The sum up to the second surface. It is kept wherever light is added, because Mesa 22.3.6 loses it at the start of the
+    // loop.
+    vec3 of_first_surface = vec3(0.0);
     do {
         ++rays;
         Hit hit = intersect_scene(ray, given_up);
@@ -96,6 +101,7 @@ vec3 radiance(Ray ray, const PathSampler path, const uint max_bounces, inout uin
                 seen *= strategy_weight(density, share_of_sky() * sky_density(ray.direction));
             }
             sum += throughput * seen;
+            of_first_surface = bounce == 0u ? sum : of_first_surface;
             break;
         }
         SurfacePoint at = surface_point(ray, hit);
@@ -116,17 +122,26 @@ vec3 radiance(Ray ray, const PathSampler path, const uint max_bounces, inout uin
             emitted *= strategy_weight(density, of_lamps);
         }
         sum += throughput * emitted;
-        if (bounce == max_bounces) {
+        of_first_surface = bounce == 0u ? sum : of_first_surface;
+        if (bounce == most_bounces(limits)) {
             break;
         }
-        if ((HAS_LAMPS | HAS_PANORAMA) == 1u) {
+        bool may_spread = diffuse_bounces < most_diffuse_bounces(limits);
+        if (may_spread && (HAS_LAMPS | HAS_PANORAMA) == 1u) {
             vec4 of_light = path_values(path, bounce, USE_LIGHT);
             sum += throughput * direct_light(material, color, at, -ray.direction, here, of_light, rays, given_up);
+            of_first_surface = bounce == 0u ? sum : of_first_surface;
         }
         vec4 xi = path_values(path, bounce, USE_DIRECTION);
         Scatter scatter = material_sample(material, color, at, -ray.direction, xi.xyz);
         throughput *= scatter.weight;
         density = scatter.density;
+        if (density > 0.0) {
+            if (!may_spread) {
+                break;
+            }
+            ++diffuse_bounces;
+        }
         float survival = survival_probability(throughput, bounce);
         if (xi.w >= survival) {
             break;
@@ -136,7 +151,13 @@ vec3 radiance(Ray ray, const PathSampler path, const uint max_bounces, inout uin
             here = beyond;
         }
         ray = Ray(start_towards(at, scatter.direction), scatter.direction);
-    } while (++bounce <= max_bounces);
+    } while (++bounce <= most_bounces(limits));
+    float most = most_indirect(limits);
+    if (most > 0.0) {
+        vec3 indirect = sum - of_first_surface;
+        float found = luminance(indirect);
+        sum = found > most ? of_first_surface + (most / found) * indirect : sum;
+    }
     return sum;
 }
 

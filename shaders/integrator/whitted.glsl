@@ -4,6 +4,7 @@
 #ifndef WHITTED_GLSL
 #define WHITTED_GLSL
 
+#include "core/limits.glsl"
 #include "core/sampling.glsl"
 #include "light/light.glsl"
 #include "material/material.glsl"
@@ -58,9 +59,9 @@ vec3 shade(
 }
 
 // The radiance that arrives along the ray: the radiance of the surface, plus that of its mirror image, followed for at
-// most max_bounces reflections. rays counts every ray traced, including shadow rays. given_up is true if a search took
+// most as many reflections as the limits allow. rays counts every ray traced, including shadow rays. given_up is true if a search took
 // too long; the radiance is then of no use. This integrator makes no random decisions, so it takes no values of path.
-vec3 radiance(Ray ray, const PathSampler path, const uint max_bounces, inout uint rays, out bool given_up) {
+vec3 radiance(Ray ray, const PathSampler path, const uint limits, inout uint rays, out bool given_up) {
     vec3 sum = vec3(0.0);
     vec3 throughput = vec3(1.0);
     given_up = false;
@@ -83,7 +84,7 @@ vec3 radiance(Ray ray, const PathSampler path, const uint max_bounces, inout uin
             break;
         }
         ray = Ray(at.offset_position, scatter.direction);
-    } while (++bounce <= max_bounces);
+    } while (++bounce <= most_bounces(limits));
     return sum;
 }
 

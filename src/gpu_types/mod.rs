@@ -22,6 +22,7 @@ use crate::scene::{CameraModel, Integrator};
 use crate::settings::{Estimator, Sampler, Settings};
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, UVec2};
+use half::f16;
 
 /// The three texels of a node in bvh.glsl. The upper byte of `exponents_and_child_count` is the number of children. A
 /// [`ShapeRecord`] has its material there, an index so small that its upper byte is zero, which distinguishes shapes from
@@ -83,9 +84,15 @@ pub struct TracePush {
     pub camera: Camera,
     pub lattice: Lattice,
     pub seed: u32,
-    pub max_bounces: u32,
+    pub limits: u32,
     pub first_sample: u32,
     pub sample_count: u32,
+}
+
+/// What ends paths, as limits.glsl reads it.
+pub fn limits(estimator: &Estimator) -> u32 {
+    let clamp = f16::from_f32(estimator.clamp);
+    estimator.max_bounces | estimator.diffuse_bounces << 8 | u32::from(clamp.to_bits()) << 16
 }
 
 /// `AccumulatePush` of accumulate.comp.

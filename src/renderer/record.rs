@@ -9,7 +9,7 @@ use super::tiles::Tile;
 use super::{Pace, Renderer};
 use crate::gpu_types::{
     AccumulatePush, ApertureBuffer, Brightest, Camera, Counters, GeometryPush, OverlayScale, ResolvePush,
-    SelectPush, TracePush,
+    SelectPush, TracePush, limits,
 };
 use crate::passes::AdaptiveBuffers;
 use crate::vulkan::Recording;
@@ -81,7 +81,7 @@ impl Renderer {
                     camera: Camera::new(estimator),
                     lattice,
                     seed: estimator.seed,
-                    max_bounces: estimator.max_bounces,
+                    limits: limits(estimator),
                     first_sample: batch.first_sample,
                     sample_count: batch.sample_count,
                 };

@@ -22,8 +22,8 @@ pub use sweep::Sweep;
 
 use crate::error::{Error, Result};
 use crate::scene::{
-    Aperture, Camera, CameraModel, FocalPlane, FullScale, Hole, Integrator, Lens, Overlay, Preset, SceneRef,
-    Source, Stage, View, in_range,
+    Aperture, Camera, CameraModel, FocalPlane, FullScale, Hole, Integrator, Lens, MAX_BOUNCES, Overlay,
+    Preset, SceneRef, Source, Stage, View, in_range,
 };
 use std::path::Path;
 
@@ -84,6 +84,11 @@ pub struct Estimator {
     pub integrator: Integrator,
     /// How often light is scattered on its way from a lamp or the sky to the lens. `whitted` counts mirrors only.
     pub max_bounces: u32,
+    /// How often `path` lets light be scattered by surfaces that spread it: all but smooth mirrors, metals and glass.
+    pub diffuse_bounces: u32,
+    /// The most luminance of what a path finds after its first surface, to 11 bits; 0 for no limit. It takes away bright dots, and
+    /// light.
+    pub clamp: f32,
     /// How sample values are made.
     pub sampler: Sampler,
     /// The seed of the sample values.
@@ -215,6 +220,8 @@ impl Settings {
                 size: scene.size,
                 integrator: scene.integrator,
                 max_bounces: scene.max_bounces,
+                diffuse_bounces: MAX_BOUNCES,
+                clamp: 0.0,
                 jitter: DEFAULT_JITTER,
                 sampler: Sampler::default(),
                 seed: 0,

@@ -21,7 +21,7 @@ struct Out {
 };
 
 layout(push_constant, std430) uniform RadiancePush {
-    uint max_bounces;
+    uint limits;
 } push;
 
 layout(set = 0, binding = BINDING_PROBE_INPUTS, std430) readonly buffer Inputs { In inputs[]; };
@@ -33,7 +33,7 @@ void main() {
     if (i < inputs.length()) {
         uint rays = 0u;
         bool given_up;
-        vec3 sum = radiance(Ray(inputs[i].origin, inputs[i].direction), PathSampler(0u, uvec2(i, 0u), 0u), push.max_bounces, rays, given_up);
+        vec3 sum = radiance(Ray(inputs[i].origin, inputs[i].direction), PathSampler(0u, uvec2(i, 0u), 0u), push.limits, rays, given_up);
         outputs[i] = Out(sum, rays);
     }
 }

@@ -25,7 +25,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Shaders that tests try with few of the faults of their files: the tags of these faults. A fault without a tag is planted
 /// wherever it fits. If a test asks for a fault that its shader lacks, the test fails, because it does not see the fault.
 const TRIED: &[(&str, &[&str])] = &[
-    ("trace_path", &["paths", "sky"]),
+    ("trace_path", &["paths", "sky", "limits"]),
     ("pick", &["pick", "fan", "framing", "lens"]),
     ("radiance", &["shading", "shadow_ray"]),
     ("intersect", &["hit", "shadow_ray"]),

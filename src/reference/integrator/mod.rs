@@ -15,12 +15,18 @@ pub struct Limits {
     pub integrator: Integrator,
     /// How often light is scattered.
     pub max_bounces: u32,
+    /// How often light is scattered by surfaces that spread it.
+    pub diffuse_bounces: u32,
+    /// The most luminance of what is found after the first surface; infinite for no limit.
+    pub most_indirect: f64,
 }
 
 impl Limits {
     /// Those of an estimator.
     pub fn of(estimator: &Estimator) -> Self {
-        Self { integrator: estimator.integrator, max_bounces: estimator.max_bounces }
+        let Estimator { integrator, max_bounces, diffuse_bounces, clamp, .. } = *estimator;
+        let most_indirect = if clamp > 0.0 { half::f16::from_f32(clamp).into() } else { f64::INFINITY };
+        Self { integrator, max_bounces, diffuse_bounces, most_indirect }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{Limits, MIN_DISTANCE, PathValues};
 use crate::reference::Ray;
 use crate::reference::intersect::intersect;
-use crate::reference::light::lamps::{LampSample, Lamps};
+use crate::reference::light::lamps::{LampSample, Lamps, luminance};
 use crate::reference::light::sky;
 use crate::reference::material::{Kind, Scatter, kind_of};
 use crate::reference::sampler::Use;
@@ -13,7 +13,14 @@ use glam::DVec3;
 
 /// The radiance that arrives along `ray`.
 pub(super) fn radiance(scene: &Scene, ray: Ray, limits: &Limits, values: PathValues<'_>) -> DVec3 {
-    Path { scene, lamps: Lamps::of(scene), limits, values }.radiance(ray, 0.0, DVec3::ONE, 0, &[], None)
+    Path { scene, lamps: Lamps::of(scene), limits, values }.radiance(
+        ray,
+        0.0,
+        DVec3::ONE,
+        Bounces::default(),
+        &[],
+        None,
+    )
 }
 
 /// What stays the same along a path.
@@ -22,6 +29,14 @@ struct Path<'a> {
     lamps: Lamps<'a>,
     limits: &'a Limits,
     values: PathValues<'a>,
+}
+
+/// How often a path has been scattered.
+#[derive(Clone, Copy, Default)]
+struct Bounces {
+    all: u32,
+    /// By surfaces that spread light.
+    diffuse: u32,
 }
 
 impl Path<'_> {
@@ -33,7 +48,7 @@ impl Path<'_> {
         ray: Ray,
         min_distance: f64,
         importance: DVec3,
-        bounce: u32,
+        bounces: Bounces,
         inside: &[u32],
         density: Option<f64>,
     ) -> DVec3 {
@@ -64,20 +79,26 @@ impl Path<'_> {
         if let Some(density) = density.filter(|_| emitted != DVec3::ZERO) {
             emitted *= share(density, (1.0 - self.share_of_sky()) * self.lamps.density(&ray, &hit, emitted));
         }
-        if bounce == self.limits.max_bounces {
+        if bounces.all == self.limits.max_bounces {
             return left * emitted;
         }
+        let may_spread = bounces.diffuse < self.limits.diffuse_bounces;
         let min_distance = MIN_DISTANCE * surface.magnitude;
-        let direct = self.direct_light(material, &surface, &ray, min_distance, bounce, inside);
+        let direct = if may_spread {
+            self.direct_light(material, &surface, &ray, min_distance, bounces.all, inside)
+        } else {
+            DVec3::ZERO
+        };
         let shown = left * (emitted + direct);
-        let [first, second, third, chance] = (self.values)(bounce, Use::Direction);
+        let [first, second, third, chance] = (self.values)(bounces.all, Use::Direction);
         let Some(Scatter { direction, weight, density }) =
             material.sample(&surface, -ray.direction, [first, second, third])
         else {
             return shown;
         };
-        let survival = survival((importance * weight).max_element(), bounce);
-        if chance >= survival {
+        let spreads = density.is_some();
+        let survival = survival((importance * weight).max_element(), bounces.all);
+        if chance >= survival || (spreads && !may_spread) {
             return shown;
         }
         let weight = weight / survival;
@@ -85,7 +106,10 @@ impl Path<'_> {
         let passes = direction.dot(surface.normal) < 0.0;
         let inside = if passes { &beyond } else { inside };
         let importance = importance * weight;
-        shown + left * weight * self.radiance(further, min_distance, importance, bounce + 1, inside, density)
+        let next = Bounces { all: bounces.all + 1, diffuse: bounces.diffuse + u32::from(spreads) };
+        let found = left * weight * self.radiance(further, min_distance, importance, next, inside, density);
+        let most = if bounces.all == 0 { self.limits.most_indirect } else { f64::INFINITY };
+        shown + found * (most / luminance(found)).min(1.0)
     }
 
     /// The share of light samples that go to the sky.

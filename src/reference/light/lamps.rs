@@ -24,7 +24,7 @@ pub(in crate::reference) struct LampSample {
     pub(in crate::reference) density: f64,
 }
 
-fn luminance(radiance: DVec3) -> f64 {
+pub(in crate::reference) fn luminance(radiance: DVec3) -> f64 {
     radiance.dot(DVec3::new(0.2126, 0.7152, 0.0722))
 }
 

@@ -7,6 +7,9 @@ use crate::settings::{
     name_of, named,
 };
 
+/// The largest number that a half float holds.
+const MAX_CLAMP: f32 = 65504.0;
+
 /// The slider for points per pixel ends here, or at the number that the viewer was started with.
 const MAX_SLIDER_SAMPLES: u32 = 4096;
 
@@ -96,6 +99,35 @@ pub(super) static SAMPLING: &[Setting] = &[
             "Bounces",
             "How often light is scattered on its way to the lens: more bounces brighten corners, glass and mirrors in mirrors, and take longer. With whitted, only mirrors count.",
             Widget::Slider(Slider { range: |_| [0.0, MAX_BOUNCES as f32], ..EVEN }),
+        ),
+    },
+    Setting {
+        flag: "diffuse-bounces",
+        letter: None,
+        value_name: "N",
+        help: "How often path lets light be scattered by surfaces that spread it: all but smooth mirrors, metals and glass. \
+               1 is direct light alone",
+        default: "64",
+        role: Role::Estimator,
+        key: None,
+        access: Access::Whole(field!(estimator.diffuse_bounces), [0, MAX_BOUNCES]),
+        row: None,
+    },
+    Setting {
+        flag: "clamp",
+        letter: None,
+        value_name: "L",
+        help: "The most luminance that path finds after the first surface, in each sample; 0 for no limit. It takes bright \
+               dots (fireflies) out of pictures of few samples. The picture is then biased: it lacks the light that is cut off",
+        default: "0",
+        role: Role::Estimator,
+        key: None,
+        access: Access::Single(field!(estimator.clamp), [0.0, MAX_CLAMP], Unit::Plain),
+        row: row(
+            Part::Sampling,
+            "Clamp",
+            "With path, the most luminance that a ray can find after its first surface; 0 for no limit. It takes bright dots out of the picture, and with them light: the picture is biased.",
+            Widget::Slider(Slider { range: |_| [0.0, 20.0], decimals: Some(1), ..EVEN }),
         ),
     },
     Setting {
