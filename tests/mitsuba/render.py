@@ -90,14 +90,17 @@ def write_panorama():
             side = 0.2 + 0.4 * x / width
             up = max(1 - 2 * y / height, 0)
             values += [side + 9 * sun, 0.3 + 0.2 * up + 8 * sun, 0.3 + 0.5 * up + 6 * sun]
-    tensor = mitsuba.TensorXf(values, (height, width, 3))
-    mitsuba.Bitmap(tensor).write(str(FOLDER / "panorama.exr"))
+    bitmap = mitsuba.Bitmap(mitsuba.TensorXf(values, (height, width, 3)))
+    # This program keeps colours in 16 bits, so both read the same ones.
+    bitmap = bitmap.convert(component_format=mitsuba.Struct.Type.Float16)
+    bitmap.write(str(FOLDER / "panorama.exr"))
 
 
 def sky(background):
     if "image" not in background:
         return {"type": "constant", "radiance": rgb(background["color"])}
     bitmap = mitsuba.Bitmap(str(FOLDER / background["image"]))
+    bitmap = bitmap.convert(component_format=mitsuba.Struct.Type.Float32)
     width, height = bitmap.size()
     values = list(mitsuba.TensorXf(bitmap).array)
     rows = [values[3 * width * y : 3 * width * (y + 1)] for y in range(height)]
