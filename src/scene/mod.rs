@@ -45,8 +45,6 @@ pub use preset::{PRESETS, Preset};
 pub use range::{in_range, in_range_or_zero};
 pub use sensor::*;
 pub use shape::*;
-// An aperture can be a disc too, which has no values of its own that anything else would name.
-pub use shape::Disc;
 pub use stage::{COLORS, LIGHT_STRENGTHS, ModelMaterial, Stage, TURNS, UpAxis};
 pub use texture::*;
 pub use typed::{Typed, Unit, metric, rounded};

@@ -100,6 +100,8 @@ impl TexelBuffer {
     /// # Errors
     /// [`Error::Limit`] where it has more texels than the device can read.
     pub(super) fn new(device: &Arc<Device>, name: &'static str, size: u64) -> Result<Self> {
+        // The view has whole texels only.
+        let size = size.next_multiple_of(16);
         device.limits.check_texels(name, size)?;
         let usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER;
         let buffer = Buffer::with_usage(device, name, size, Residence::Device, usage)?;

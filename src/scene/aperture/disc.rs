@@ -4,9 +4,9 @@ use super::{Kind, Opening};
 
 /// A disc.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Disc;
+pub struct ApertureDisc;
 
-impl Kind for Disc {
+impl Kind for ApertureDisc {
     fn relative_area(&self) -> f64 {
         1.0
     }

@@ -17,7 +17,7 @@ use std::fmt::Display;
 macro_rules! aperture_kinds {
     ($callback:ident) => {
         $callback! {
-            (Disc, Disc, disc),
+            (Disc, ApertureDisc, disc),
             (Ellipse, Ellipse, ellipse),
             (Blades, Blades, blades),
             (CatsEye, CatsEye, cats_eye),
@@ -156,7 +156,7 @@ impl Aperture {
     /// The kind of aperture that a camera of this model has.
     pub fn kind(&self, model: CameraModel) -> ApertureKind {
         match &self.image {
-            _ if model == CameraModel::Pinhole => ApertureKind::Disc(Disc),
+            _ if model == CameraModel::Pinhole => ApertureKind::Disc(ApertureDisc),
             Some(image) => ApertureKind::Image(image.clone()),
             None if self.blades > 0 => ApertureKind::Blades(Blades {
                 count: self.blades,
@@ -168,7 +168,7 @@ impl Aperture {
                 ApertureKind::CatsEye(CatsEye { in_corner: self.cats_eye })
             }
             None if self.anamorphic != 1.0 => ApertureKind::Ellipse(Ellipse),
-            None => ApertureKind::Disc(Disc),
+            None => ApertureKind::Disc(ApertureDisc),
         }
     }
 
