@@ -189,7 +189,7 @@ impl Preparer {
         // With colour errors, a sample has three rays.
         let rays = if estimator.dispersion() == 0.0 { 1 } else { 3 };
         let bounces = most_bounces(scene, estimator);
-        let steps = rays * scene.max_loop_steps(bounces);
+        let steps = rays * scene.max_loop_steps(estimator.integrator, bounces);
         let Some(most) = self.device.traits().max_loop_steps else {
             return Ok(LARGEST_BATCH);
         };

@@ -37,7 +37,8 @@ impl Renderer {
     fn record_tiles(&mut self, recording: &mut Recording<'_>, pace: Pace) -> Work {
         // The rays of a submission are counted in 32 bits.
         let scene = &self.loaded.prepared.scene;
-        let max_rays = scene.max_rays(most_bounces(scene, &self.settings.estimator));
+        let estimator = &self.settings.estimator;
+        let max_rays = scene.max_rays(estimator.integrator, most_bounces(scene, estimator));
         let budget = self.tally.work_within(pace.budget).min(u64::from(u32::MAX / max_rays));
         let mut left = budget;
         let mut done = Work::default();
