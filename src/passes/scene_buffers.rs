@@ -3,7 +3,6 @@
 use crate::error::{Error, Result};
 use crate::gpu_types::{SceneBlock, SceneColors, SceneCounts, SceneData};
 use crate::interface::{SPELLED_OUT_STACK, STACK_INDEX_BITS, binding, constant, scene_in, shape};
-use crate::scene::Integrator;
 use crate::vulkan::{Binding, Buffer, Device, TexelBuffer, UniformBuffer};
 use bytemuck::Pod;
 use half::f16;
@@ -155,18 +154,18 @@ impl SceneBuffers {
 
     /// The most rays that one sample can need, if rays bounce so often: for each surface, one that reaches it and one
     /// from there to each light.
-    pub fn max_rays(&self, integrator: Integrator, bounces: u32) -> u32 {
-        (1 + bounces).saturating_mul(1 + self.most_lights(integrator))
+    pub fn max_rays(&self, samples_lights: bool, bounces: u32) -> u32 {
+        (1 + bounces).saturating_mul(1 + self.most_lights(samples_lights))
     }
 
     /// The most iterations that the loops of the trace pass can make for one sample, if rays bounce so often: over
     /// shapes for each ray, over lights and bounces, and in the sampler.
-    pub fn max_loop_steps(&self, integrator: Integrator, bounces: u32) -> u64 {
+    pub fn max_loop_steps(&self, samples_lights: bool, bounces: u32) -> u64 {
         let too_deep = u64::from(self.tree_depth.saturating_sub(SPELLED_OUT_STACK));
         let tree = u64::from(self.counts.max_tree_steps) * (1 + too_deep);
         let shapes = u64::from(self.listed_shapes()) + tree;
-        let lights = u64::from(self.most_lights(integrator));
-        let search = if integrator == Integrator::Path { LIGHT_SEARCH_STEPS } else { 1 };
+        let lights = u64::from(self.most_lights(samples_lights));
+        let search = if samples_lights { LIGHT_SEARCH_STEPS } else { 1 };
         SAMPLER_LOOP_STEPS + (1 + u64::from(bounces)) * (1 + shapes + lights * (search + shapes))
     }
 
@@ -186,12 +185,10 @@ impl SceneBuffers {
         )
     }
 
-    /// The most lights that are looked at from a surface: each light, or one that is sampled.
-    fn most_lights(&self, integrator: Integrator) -> u32 {
-        match integrator {
-            Integrator::Whitted => self.counts.lights,
-            Integrator::Path => (self.counts.lamps > 0 || self.has_panorama).into(),
-        }
+    /// The most lights that are looked at from a surface: each light, or for an integrator that samples lights, one lamp or
+    /// the sky.
+    fn most_lights(&self, samples_lights: bool) -> u32 {
+        if samples_lights { (self.counts.lamps > 0 || self.has_panorama).into() } else { self.counts.lights }
     }
 
     /// The number of shapes in the list.

@@ -189,7 +189,7 @@ impl Preparer {
         // With colour errors, a sample has three rays.
         let rays = if estimator.dispersion() == 0.0 { 1 } else { 3 };
         let bounces = most_bounces(scene, estimator);
-        let steps = rays * scene.max_loop_steps(estimator.integrator, bounces);
+        let steps = rays * scene.max_loop_steps(samples_lights(estimator), bounces);
         let Some(most) = self.device.traits().max_loop_steps else {
             return Ok(LARGEST_BATCH);
         };
@@ -233,9 +233,14 @@ impl Prepared {
     }
 }
 
+/// Whether the integrator samples lamps and the sky, and not each light of a list.
+pub(super) fn samples_lights(estimator: &Estimator) -> bool {
+    estimator.integrator == Integrator::Path
+}
+
 /// How often a ray can bounce in this scene.
 pub(super) fn most_bounces(scene: &SceneBuffers, estimator: &Estimator) -> u32 {
-    let bounces = estimator.integrator == Integrator::Path || scene.reflects();
+    let bounces = samples_lights(estimator) || scene.reflects();
     if bounces { estimator.max_bounces } else { 0 }
 }
 

@@ -2,7 +2,7 @@
 
 use super::film::Seen;
 use super::loaded::Loaded;
-use super::prepared::most_bounces;
+use super::prepared::{most_bounces, samples_lights};
 use super::schedule::{Stage, reach};
 use super::tally::Work;
 use super::tiles::Tile;
@@ -38,7 +38,7 @@ impl Renderer {
         // The rays of a submission are counted in 32 bits.
         let scene = &self.loaded.prepared.scene;
         let estimator = &self.settings.estimator;
-        let max_rays = scene.max_rays(estimator.integrator, most_bounces(scene, estimator));
+        let max_rays = scene.max_rays(samples_lights(estimator), most_bounces(scene, estimator));
         let budget = self.tally.work_within(pace.budget).min(u64::from(u32::MAX / max_rays));
         let mut left = budget;
         let mut done = Work::default();

@@ -26,7 +26,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// wherever it fits. If a test asks for a fault that its shader lacks, the test fails, because it does not see the fault.
 const TRIED: &[(&str, &[&str])] = &[
     ("trace_path", &["paths", "sky", "limits"]),
-    ("pick", &["pick", "fan", "framing", "lens"]),
+    ("pick", &["pick", "fan", "framing", "lens", "movements"]),
     ("radiance", &["shading", "shadow_ray"]),
     ("intersect", &["hit", "shadow_ray"]),
     ("aperture", &["aperture"]),
