@@ -222,8 +222,8 @@ fn a_device_that_is_lost_without_a_window_ends_the_program_in_one_line() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let output = thinlens(folder.path())
         .args(["render", "suffern-boxes", "-o", "out.png", "-s", "64x48", "-n", "64", "--validation"])
-        // What the scene takes is uploaded in five.
-        .env(LOSE_AT, "6")
+        // What the scene takes is uploaded in six.
+        .env(LOSE_AT, "7")
         .output();
     let run: Run = output.expect("it starts").into();
     assert_eq!(run.code, 1, "{}", run.stderr);
