@@ -17,6 +17,7 @@ float ray_time = 0.0;
 // These replace min() and max(), whose rules for NaNs cost a software device three more instructions.
 float smaller(const float a, const float b) { return a < b ? a : b; }
 float larger(const float a, const float b) { return a > b ? a : b; }
+float largest(const vec3 of) { return larger(larger(of.x, of.y), of.z); }
 
 // 1 / direction with zero components replaced, so that no distance to an axis-aligned plane is 0 * infinity.
 vec3 safe_inverse(const vec3 direction) {

@@ -17,7 +17,7 @@ const float MOST_SURVIVAL = 0.95;
 
 // The probability that a path goes on from the surface after so many bounces, if its light counts so much.
 float survival_probability(const vec3 throughput, const uint bounce) {
-    float most = larger(larger(throughput.x, throughput.y), throughput.z);
+    float most = largest(throughput);
     if (bounce + 1u < SURFACES_BEFORE_ROULETTE) {
         return most > 0.0 ? 1.0 : 0.0;
     }

@@ -43,10 +43,6 @@ vec3 from_base(const Layers layers, const vec2 viewer, const vec2 light) {
     return layers.base * (unreflected(viewer, layers.coat) * unreflected(light, layers.coat));
 }
 
-float largest(const vec3 color) {
-    return larger(larger(color.x, color.y), color.z);
-}
-
 // The probabilities with which layers_sample() chooses a direction as light leaves the facets, the space between them, and
 // the base: by how much light each of them brings.
 vec3 chances(const Layers layers, const vec2 viewer) {

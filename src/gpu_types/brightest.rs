@@ -3,7 +3,7 @@
 
 use super::Camera;
 use crate::interface::DISPERSION;
-use crate::scene::{Frame, Integrator, Plane, Scene};
+use crate::scene::{Frame, Integrator, Plane, Scene, luminance};
 use crate::settings::Estimator;
 use glam::{DQuat, DVec2, DVec3, Vec3};
 
@@ -84,11 +84,6 @@ impl Brightest {
             }
         }
     }
-}
-
-/// The luminance of a linear colour with the primaries of Rec. 709.
-pub(super) fn luminance(color: DVec3) -> f64 {
-    color.dot(DVec3::new(0.2126, 0.7152, 0.0722))
 }
 
 fn sky(scene: &Scene) -> DVec3 {

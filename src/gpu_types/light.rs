@@ -1,11 +1,10 @@
 //! Lights in the form that the shaders read. Each kind of light has a match arm.
 
 use super::ShapeRecord;
-use super::brightest::luminance;
 use super::denormal::{flush_denormal, flush_denormals};
 use super::shape::on_device;
 use crate::interface::light;
-use crate::scene::{self, LightKind, Scene, Shaded};
+use crate::scene::{self, LightKind, Scene, Shaded, luminance};
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
 

@@ -1,7 +1,7 @@
 //! Images that surfaces and the sky show. They are read whole, into linear colours of 16 bits a channel, which is also what a
 //! device reads.
 
-use super::{MAX_EXTENT, MAX_LENGTH};
+use super::{MAX_EXTENT, MAX_LENGTH, linear_of_srgb};
 use crate::error::{Error, Result, cannot_read};
 use crate::input_file;
 use glam::{DVec3, Vec3};
@@ -26,6 +26,8 @@ pub struct Texels {
     pub texels: Vec<[f16; 4]>,
     /// What the colours are multiplied by. It is 1 unless a colour is too bright for 16 bits.
     pub scale: f32,
+    /// As bright as it is anywhere, in each channel.
+    pub brightest: Vec3,
     /// The file that it was read from.
     pub file: PathBuf,
 }
@@ -78,13 +80,13 @@ impl Image {
         let size = [image.width(), image.height()];
         // Neither a NaN nor what is infinite is a colour.
         let linear = |channel: f32| {
-            let channel = if encoded { from_srgb(channel) } else { channel };
+            let channel = if encoded { linear_of_srgb(channel.into()) as f32 } else { channel };
             if channel > 0.0 { channel.min(MAX_LENGTH) } else { 0.0 }
         };
         let texels = image.to_rgba32f();
         let colors = || texels.pixels().map(|image::Rgba([r, g, b, _])| [*r, *g, *b].map(linear));
-        let brightest = colors().flatten().fold(0.0, f32::max);
-        let scale = (brightest / f16::MAX.to_f32()).max(1.0);
+        let brightest = colors().map(Vec3::from_array).fold(Vec3::ZERO, Vec3::max);
+        let scale = (brightest.max_element() / f16::MAX.to_f32()).max(1.0);
         let stored = |channel: f32| f16::from_f32(channel / scale);
         let opacity = |image::Rgba([.., a]): &image::Rgba<f32>| f16::from_f32(a.clamp(0.0, 1.0));
         let texels = colors()
@@ -94,19 +96,14 @@ impl Image {
                 [r, g, b, opacity]
             })
             .collect();
-        Self(Arc::new(Texels { size, texels, scale, file: path.to_path_buf() }))
+        let brightest = scale * (brightest / scale).map(|channel| f16::from_f32(channel).to_f32());
+        Self(Arc::new(Texels { size, texels, scale, brightest, file: path.to_path_buf() }))
     }
 
     /// The colour of a texel.
     pub fn color(&self, [x, y]: [u32; 2]) -> DVec3 {
         let [r, g, b, _] = self.texels[y as usize * self.size[0] as usize + x as usize];
         f64::from(self.scale) * DVec3::new(r.into(), g.into(), b.into())
-    }
-
-    /// As bright as it is anywhere, in each channel.
-    pub fn brightest(&self) -> Vec3 {
-        let color = |[r, g, b, _]: &[f16; 4]| Vec3::new(r.to_f32(), g.to_f32(), b.to_f32());
-        self.scale * self.texels.iter().map(color).fold(Vec3::ZERO, Vec3::max)
     }
 }
 
@@ -128,9 +125,4 @@ fn decode(file: BufReader<std::fs::File>, format: ImageFormat) -> Result<Dynamic
         ));
     }
     DynamicImage::from_decoder(decoder).map_err(damaged)
-}
-
-/// The linear value of an encoded one: IEC 61966-2-1.
-fn from_srgb(encoded: f32) -> f32 {
-    if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }

@@ -2,7 +2,9 @@
 
 use super::Settings;
 use crate::error::{Error, Result};
-use crate::scene::{ApertureImage, Sensor, Tolerance, Typed, Unit, in_range, in_range_or_zero, rounded};
+use crate::scene::{
+    ApertureImage, Sensor, Tolerance, Typed, Unit, in_range, in_range_or_zero, linear_of_srgb, rounded,
+};
 use glam::DVec3;
 use std::path::{Path, PathBuf};
 
@@ -433,7 +435,7 @@ fn hex(color: DVec3) -> String {
 
 /// A channel of sRGB in linear light, with as few digits as tell apart any two of its 256 levels.
 pub fn to_linear(level: f64) -> f64 {
-    let linear = if level <= 0.04045 { level / 12.92 } else { ((level + 0.055) / 1.055).powf(2.4) };
+    let linear = linear_of_srgb(level);
     (1e5 * linear).round() / 1e5
 }
 

@@ -58,14 +58,14 @@ impl Background {
     pub fn brightest(&self) -> Vec3 {
         match self {
             Self::Gradient(Gradient { horizon, zenith }) => horizon.max(*zenith),
-            Self::Panorama(panorama) => panorama.radiance * panorama.image.brightest(),
+            Self::Panorama(panorama) => panorama.radiance * panorama.image.brightest,
         }
     }
 
     /// At least as much as the irradiance of any surface that faces the sky.
     pub fn most_irradiance(&self) -> DVec3 {
         let of_brightest = PI * self.brightest().as_dvec3();
-        self.panorama().map_or(of_brightest, |sky| of_brightest.min(4.0 * PI * sky.mean_radiance()))
+        self.panorama().map_or(of_brightest, |sky| of_brightest.min(4.0 * PI * sky.mean))
     }
 }
 

@@ -1,6 +1,6 @@
 //! A sky that an image shows all around.
 
-use crate::scene::Image;
+use crate::scene::{Image, luminance};
 use glam::DVec3;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -16,6 +16,8 @@ pub struct Panorama {
     /// By how much the sky is turned about the vertical, anticlockwise as seen from above. At 0, the middle of the image lies
     /// in the direction -z.
     pub turn_degrees: f32,
+    /// The mean of the radiance over all directions.
+    pub mean: DVec3,
     /// How probably a direction is chosen from each texel, to sample the light of the sky.
     pub chances: Arc<Chances>,
 }
@@ -34,17 +36,13 @@ impl Panorama {
     /// A sky that shows this image.
     pub fn new(image: Image, radiance: f32, turn_degrees: f32) -> Self {
         let chances = Arc::new(Chances::new(&image));
-        Self { image, radiance, turn_degrees, chances }
-    }
-
-    /// The mean of the radiance over all directions.
-    pub fn mean_radiance(&self) -> DVec3 {
-        let [width, height] = self.image.size;
+        let [width, height] = image.size;
         let of_row = |y: u32| {
-            let sum: DVec3 = (0..width).map(|x| self.image.color([x, y])).sum();
+            let sum: DVec3 = (0..width).map(|x| image.color([x, y])).sum();
             0.5 * share_of_sphere(y, height) / f64::from(width) * sum
         };
-        f64::from(self.radiance) * (0..height).map(of_row).sum::<DVec3>()
+        let mean = f64::from(radiance) * (0..height).map(of_row).sum::<DVec3>();
+        Self { image, radiance, turn_degrees, mean, chances }
     }
 }
 
@@ -59,7 +57,7 @@ impl Chances {
     /// angle.
     fn new(image: &Image) -> Self {
         let [width, height] = image.size;
-        let luminance = |x: u32, y: u32| image.color([x, y]).dot(DVec3::new(0.2126, 0.7152, 0.0722));
+        let luminance = |x: u32, y: u32| luminance(image.color([x, y]));
         // The mean of linear interpolation over a texel weighs it by 3/4, and its neighbours by 1/8, along each axis.
         let blended = |before: f64, here: f64, after: f64| 0.125 * before + 0.75 * here + 0.125 * after;
         let (mut rows, mut columns) = (Vec::new(), Vec::with_capacity(width as usize * height as usize));
