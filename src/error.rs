@@ -149,15 +149,7 @@ pub enum Error {
         /// What is wrong, and what to do.
         message: String,
     },
-    /// An image cannot be used as the shape of an aperture.
-    #[error("{file}: {message}")]
-    ApertureImage {
-        /// The image's file.
-        file: String,
-        /// What is wrong, and what to do.
-        message: String,
-    },
-    /// An image cannot be shown.
+    /// An image cannot be used: as the sky, or as the shape of an aperture.
     #[error("{file}: {message}")]
     Image {
         /// The image's file.

@@ -131,10 +131,14 @@ pub(crate) fn kind(bytes: &[u8]) -> Option<&'static str> {
     BEGINNINGS.iter().find(|(beginning, _)| bytes.starts_with(beginning)).map(|(_, kind)| *kind)
 }
 
-/// The beginning of a file, to tell what it is.
-pub(crate) fn beginning(file: &mut File) -> std::io::Result<Vec<u8>> {
+/// Opens a plain file, and returns its beginning too, which tells what it is.
+///
+/// # Errors
+/// [`Error::Read`].
+pub(crate) fn open_with_beginning(path: &Path) -> Result<(File, Vec<u8>)> {
+    let mut file = open(path)?;
     let mut bytes = Vec::new();
-    file.take(64).read_to_end(&mut bytes)?;
-    std::io::Seek::rewind(file)?;
-    Ok(bytes)
+    let read = (&mut file).take(64).read_to_end(&mut bytes);
+    read.and_then(|_| std::io::Seek::rewind(&mut file)).map_err(|error| cannot_read(path, &error))?;
+    Ok((file, bytes))
 }

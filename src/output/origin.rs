@@ -1,6 +1,6 @@
 //! How a picture was made, carried by its file: the arguments that render it again.
 
-use crate::error::{Error, Result, cannot_read};
+use crate::error::{Error, Result};
 use crate::input_file;
 use crate::settings::saved_names;
 use exr::meta::attribute::{AttributeValue, Text as ExrText};
@@ -40,8 +40,7 @@ impl Origin {
         if super::PictureFormat::of(path).is_none() {
             return Err(without("it is neither a .png nor an .exr".into()));
         }
-        let mut file = input_file::open(path)?;
-        let beginning = input_file::beginning(&mut file).map_err(|error| cannot_read(path, &error))?;
+        let (file, beginning) = input_file::open_with_beginning(path)?;
         // The contents decide, for a name is easily changed.
         let text = match input_file::kind(&beginning) {
             Some(input_file::PNG) => input_file::guarded(|| text_of_png(file)),

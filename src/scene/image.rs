@@ -2,7 +2,7 @@
 //! device reads.
 
 use super::{MAX_EXTENT, MAX_LENGTH, linear_of_srgb};
-use crate::error::{Error, Result, cannot_read};
+use crate::error::{Error, Result};
 use crate::input_file;
 use glam::{DVec3, Vec3};
 use half::f16;
@@ -60,8 +60,7 @@ impl Image {
     /// [`Error::Read`], or [`Error::Image`] for a file of another kind, one that is damaged, or one that is too large.
     pub fn read(path: &Path) -> Result<Self> {
         let error = |message: String| Error::Image { file: path.display().to_string(), message };
-        let mut file = input_file::open(path)?;
-        let beginning = input_file::beginning(&mut file).map_err(|error| cannot_read(path, &error))?;
+        let (file, beginning) = input_file::open_with_beginning(path)?;
         let format = image::guess_format(&beginning).ok().filter(|format| {
             matches!(format, ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::OpenExr | ImageFormat::Hdr)
         });

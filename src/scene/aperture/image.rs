@@ -92,12 +92,10 @@ impl ApertureImage {
     /// Reads a PNG. The light that a pixel lets in is its brightness times its opacity.
     ///
     /// # Errors
-    /// [`Error::Read`], or [`Error::ApertureImage`] for a file that is not a PNG, is too large, or lets in no light.
+    /// [`Error::Read`], or [`Error::Image`] for a file that is not a PNG, is too large, or lets in no light.
     pub fn read(path: &Path) -> Result<Self> {
-        let error = |message: String| Error::ApertureImage { file: path.display().to_string(), message };
-        let mut file = input_file::open(path)?;
-        let beginning = input_file::beginning(&mut file);
-        let beginning = beginning.map_err(|error| crate::error::cannot_read(path, &error))?;
+        let error = |message: String| Error::Image { file: path.display().to_string(), message };
+        let (file, beginning) = input_file::open_with_beginning(path)?;
         let kind = input_file::kind(&beginning);
         if kind != Some(input_file::PNG) {
             let is = kind.map_or_else(String::new, |kind| format!(": it is {kind}"));
